@@ -28,7 +28,8 @@ StuckRuns::Watched::Watched(StuckRuns* by, std::uint64_t run, const Executor& ex
   if (by_ == nullptr) return;
   const StuckNote note{[by, run](const HangingTask& task) { by->report_(run, task); }, by_->after_};
   const std::lock_guard lock(by_->mutex_);
-  place_ = by_->runs_.emplace(by_->runs_.end(), [&executor] { return executor.running(); }, note);
+  place_ = by_->runs_.emplace(
+      by_->runs_.end(), [&executor] { return executor.running(); }, note);
 }
 
 StuckRuns::Watched::~Watched() {

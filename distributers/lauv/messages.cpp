@@ -17,7 +17,8 @@ double unix_time() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-imc::EstimatedState estimate_state(const tasks::Motion& m, double latitude, double longitude) {
+imc::EstimatedState estimate_state(const tasks::Motion& m, const tasks::Stream& stream, double latitude,
+                                   double longitude) {
   imc::EstimatedState s;
   s.lat = latitude;
   s.lon = longitude;
@@ -30,7 +31,8 @@ imc::EstimatedState estimate_state(const tasks::Motion& m, double latitude, doub
   s.u = static_cast<float>(m.u);
   s.v = static_cast<float>(m.v);
   s.w = static_cast<float>(m.w);
-  const Eigen::Vector3f v_n = (rotation_of(m.phi, m.theta, m.psi) * Eigen::Vector3d(m.u, m.v, m.w)).cast<float>();
+  const Eigen::Vector3d through_water = rotation_of(m.phi, m.theta, m.psi) * Eigen::Vector3d(m.u, m.v, m.w);
+  const Eigen::Vector3f v_n = (through_water + Eigen::Vector3d(stream.north, stream.east, 0)).cast<float>();
   s.vx = v_n.x();
   s.vy = v_n.y();
   s.vz = v_n.z();

@@ -7,6 +7,7 @@
 
 #include "distributers/messages/imc.h"
 #include "graph/language/quantities.h"
+#include "tasks/values/guidance.h"
 #include "tasks/values/lauv.h"
 
 namespace jarol::distributers {
@@ -22,7 +23,9 @@ std::string_view name_of(tasks::Alarm alarm);
 /// Now, in s since 1970: for the eyes of who reads it, never for what a run does.
 double unix_time();
 
-/// EstimatedState about an origin, latitude and longitude in rad; the altitude is not known.
-messages::imc::EstimatedState estimate_state(const tasks::Motion& motion, double latitude, double longitude);
+/// EstimatedState about an origin, latitude and longitude in rad; the altitude is not known. Its body velocities are
+/// those through the water, as `motion` has them, those north and east over ground.
+messages::imc::EstimatedState estimate_state(const tasks::Motion& motion, const tasks::Stream& stream, double latitude,
+                                             double longitude);
 
 }  // namespace jarol::distributers

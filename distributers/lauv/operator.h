@@ -68,10 +68,12 @@ class LauvOperator {
   struct Out {
     tasks::VehicleReport report;
     tasks::Motion motion;
+    tasks::Stream stream;
     tasks::Progress progress;
     static constexpr auto fields() {
       return describe(channel<&Out::report>("depth, pitch, heading and speed reached"),
                       channel<&Out::motion>("the vehicle's motion as it came"),
+                      channel<&Out::stream>("how the water moves, as the vehicle estimates it"),
                       channel<&Out::progress>("how far it is on a leg of its plan"));
     }
   };
@@ -89,7 +91,7 @@ class LauvOperator {
         on<imc::EntityList>(&O::entity_list), on<imc::QueryEntityState>(&O::query_entity_state),
         on<imc::QueryEntityInfo>(&O::query_entity_info), on<imc::LogBookControl>(&O::log_book_control),
         compute<&In::contact>(&O::contact), send<&Out::report>(&O::send_report), send<&Out::motion>(&O::send_motion),
-        send<&Out::progress>(&O::note_progress));
+        send<&Out::stream>(&O::send_stream), send<&Out::progress>(&O::note_progress));
   }
 
   explicit LauvOperator(const Param& parameters) : parameters_(parameters) {}
@@ -128,6 +130,7 @@ class LauvOperator {
   tasks::Contact contact();
   void send_report(const tasks::VehicleReport& report, messages::Receiver& system);
   void send_motion(const tasks::Motion& motion, messages::Receiver& system);
+  void send_stream(const tasks::Stream& stream, messages::Receiver& system);
   void note_progress(const tasks::Progress& progress, messages::Receiver& system);
   void send_state(const tasks::Motion& motion, messages::Receiver& system) const;
 
@@ -188,6 +191,7 @@ class LauvOperator {
   tasks::Alarm alarm_ = tasks::Alarm::none;
   double heading_ = 0;        // of the vehicle, as reported last
   tasks::Motion motion_;      // likewise
+  tasks::Stream stream_;      // likewise
   bool motion_sent_ = false;  // by channel `motion`, which has more than `report`
   bool mode_changed_ = true;
   std::optional<std::int64_t> second_;  // told for it

@@ -218,8 +218,13 @@ void LauvOperator::send_motion(const tasks::Motion& motion, messages::Receiver& 
   send_state(motion, system);
 }
 
+void LauvOperator::send_stream(const tasks::Stream& stream, messages::Receiver& system) {
+  stream_ = stream;
+  send_from(navigation_entity, imc::EstimatedStreamVelocity{stream.north, stream.east, 0}, system);
+}
+
 void LauvOperator::send_state(const tasks::Motion& motion, messages::Receiver& system) const {
-  send_from(navigation_entity, estimate_state(motion, parameters_.latitude, parameters_.longitude), system);
+  send_from(navigation_entity, estimate_state(motion, stream_, parameters_.latitude, parameters_.longitude), system);
 }
 
 }  // namespace jarol::distributers

@@ -41,7 +41,8 @@ const char* const waiting =
 
 TEST_SUITE("distributers/campaign/oversight") {
   TEST_CASE("a task that does not come back is named once, with its run, whatever other runs do beside it") {
-    const GraphSource source{std::make_shared<const Source>(Source{"t.yaml", waiting}), tests::all_parts_with<Waits>(), {}, {}};
+    const GraphSource source{
+        std::make_shared<const Source>(Source{"t.yaml", waiting}), tests::all_parts_with<Waits>(), {}, {}};
     Graphs graphs(source);
     const Campaign campaign = state_campaign(graphs, {.vary = {"tasks.b.parameters.at=[-1, -1, 7, -1]"}});
     const Draws draws(campaign, 0);

@@ -126,8 +126,17 @@ TEST_SUITE("distributers/lauv_operator") {
     CHECK(state.vx == doctest::Approx(-0.5));
     CHECK(state.vy == doctest::Approx(1));
     CHECK(state.r == 0.25F);
+    // in a stream: the same through the water, and over ground what the water brings
+    c.adapter.hand_over<&LauvOperator::Out::stream>({.north = 0.25, .east = -0.75}, c.to);
+    CHECK(c.to.last<imc::EstimatedStreamVelocity>().x == 0.25);
+    CHECK(c.to.last<imc::EstimatedStreamVelocity>().y == -0.75);
+    c.adapter.hand_over<&LauvOperator::Out::motion>(motion, c.to);
+    state = c.to.last<imc::EstimatedState>();
+    CHECK(state.u == 1.0F);
+    CHECK(state.vx == doctest::Approx(-0.25));
+    CHECK(state.vy == doctest::Approx(0.25));
     c.report({.depth = 9});
-    CHECK(c.to.all<imc::EstimatedState>().size() == 2);
+    CHECK(c.to.all<imc::EstimatedState>().size() == 3);
   }
 
   TEST_CASE("why the supervisor brings it up is reported at once") {
