@@ -37,32 +37,43 @@ std::optional<std::int64_t> max_wcet(const System& system, std::size_t task, Bud
   return largest(1 + overhead, system.models[task].deadline + overhead + 1, good) - overhead;
 }
 
-// Those that it reads at its instant have to end by then, too, and those that these read.
-void shorten_deadline(System& system, std::size_t task, std::int64_t deadline) {
-  system.models[task].deadline = deadline;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const auto& [producer, reader] : system.follows) {
-      if (system.models[producer].deadline <= system.models[reader].deadline) continue;
-      system.models[producer].deadline = system.models[reader].deadline;
-      changed = true;
-    }
-  }
-}
-
 std::optional<std::int64_t> min_deadline(const System& system, std::size_t task, Budget& budget) {
   // negated: the search looks for the largest
-  const auto good = [&](std::int64_t negative) {
-    System changed = system;
-    shorten_deadline(changed, task, -negative);
-    return holds(changed, budget);
-  };
+  const auto good = [&](std::int64_t negative) { return holds(with_deadline(system, task, -negative), budget); };
   const std::int64_t now = system.models[task].deadline;
   if (!good(-now)) return std::nullopt;
   return -largest(-now, 0, good);
 }
 
 }  // namespace
+
+System with_deadline(const System& system, std::size_t task, std::int64_t deadline) {
+  System changed = system;
+  changed.models[task].deadline = deadline;
+  // those that it reads have to end by then, too, and those that these read
+  for (bool shortened = true; shortened;) {
+    shortened = false;
+    for (const auto& [producer, reader] : changed.follows) {
+      if (changed.models[producer].deadline <= changed.models[reader].deadline) continue;
+      changed.models[producer].deadline = changed.models[reader].deadline;
+      shortened = true;
+    }
+  }
+  return changed;
+}
+
+void confirm_deadlines(const Graph& graph, Sensitivity& sensitivity, Budget& budget) {
+  const System system = system_of(graph);
+  if (system.policy.urgency != Urgency::turn) return;
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
+    if (!sensitivity.min_deadline[i]) continue;
+    const System shorter = with_deadline(system, i, *sensitivity.min_deadline[i]);
+    Graph changed = graph;
+    for (std::size_t k = 0; k < changed.tasks.size(); ++k)
+      changed.tasks[k].deadline = Duration(shorter.models[k].deadline);
+    if (!holds(system_of(changed), budget)) sensitivity.min_deadline[i].reset();
+  }
+}
 
 std::optional<Sensitivity> sensitivity_of(const System& system, bool per_task, Budget& budget) {
   Sensitivity result;

@@ -18,6 +18,12 @@ struct Sensitivity {
   std::optional<std::size_t> binding;
 };
 
+/// With another deadline of a task, and of those that it reads at its instant. The order of a table stays as it was.
+System with_deadline(const System& system, std::size_t task, std::int64_t deadline);
+
+/// Leaves out each least deadline that does not hold once the order of a table, which goes by deadlines, follows it.
+void confirm_deadlines(const Graph& graph, Sensitivity& sensitivity, Budget& budget);
+
 /// `per_task`: also what costs a search for each task. Nothing if it would take more effort.
 std::optional<Sensitivity> sensitivity_of(const System& system, bool per_task, Budget& budget);
 

@@ -91,6 +91,7 @@ CheckReport check_graph(const std::string& file, const Graph& graph, bool sensit
   if (!sensitivity) budget.left = 30'000'000;
   if (sensitivity || cost < quick)
     report.sensitivity = analysis::sensitivity_of(system, sensitivity || per_task < quick, budget);
+  if (report.sensitivity) analysis::confirm_deadlines(graph, *report.sensitivity, budget);
   return report;
 }
 

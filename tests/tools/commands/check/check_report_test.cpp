@@ -153,4 +153,20 @@ tasks:
     CHECK(drawn.exit_code == 0);
     CHECK(drawn.output.find("<svg xmlns=") != std::string::npos);
   }
+
+  TEST_CASE("a least deadline that puts its task before another in the table is told only where both hold then") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+tasks:
+  a: {type: Counter, period: 40us, wcet: 23us}
+  b: {type: Counter, period: 40us, let: 40us, wcet: 5us, jitter: 14us}
+)");
+    const auto least = [&](const std::string& set) {
+      return json_of("check --json --sensitivity " + file + set)["tasks"][1]["min_deadline_ns"];
+    };
+    CHECK(least("").is_null());
+    CHECK(run_jarol("check " + file + " --set tasks.b.deadline=28us").exit_code == 1);
+    CHECK(least(" --set tasks.b.jitter=10us") == 28'000);
+    CHECK(run_jarol("check " + file + " --set tasks.b.jitter=10us --set tasks.b.deadline=28us").exit_code == 0);
+  }
 }
