@@ -247,7 +247,8 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
 
 void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const double dt = seconds(tick.period);
-  const std::int64_t left_out = tick.activation - std::exchange(state.before.activation, tick.activation) - 1;
+  const std::int64_t before = std::exchange(state.before.activation, tick.activation);
+  const std::int64_t left_out = before < 0 ? 0 : tick.activation - before - 1;  // none since a restart
   if (left_out > 0) {
     // what it would have estimated, had nothing been heard
     In unheard = in;

@@ -224,6 +224,7 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
   if (leak != Alarm::none) state.surfaced |= !steerable(std::exchange(state.alarm, leak));
   // a climb gone wrong is given up
   if (!steerable(lost) || !steerable(liar)) state.surfaced = true;
+  if (in.instruments.depth.count < 0 && in.instruments.pressure.count < 0) state.surfaced = true;
   const bool sinks = depth_of(in.instruments) > state.depth_at_alarm + p.climb_sink;
   if (sinks && state.alarm != Alarm::depth_gauge) state.surfaced = true;
   state.since_alarm += dt;

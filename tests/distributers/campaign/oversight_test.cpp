@@ -52,7 +52,7 @@ TEST_SUITE("distributers/campaign/oversight") {
     StuckRuns stuck(
         [&](std::uint64_t run, const HangingTask& task) {
           told.push_back("run " + std::to_string(run) + ": " + to_text(task));
-          freed = told.size() > 1;  // were it told twice
+          if (told.size() > 1) freed = true;  // were it told twice
         },
         100ms);
     std::thread later([] {

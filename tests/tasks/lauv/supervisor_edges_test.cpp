@@ -80,9 +80,9 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
         CHECK(Watched{}.run(steps_of_run, [&](LauvSupervisor::In& in) { c.count(in.instruments) = -1; }) ==
               (steered_by_it ? c.alarm : Alarm::none));
     }
-    CHECK(Watched{}.run(1, [](LauvSupervisor::In& in) {
-      in.instruments.depth.count = in.instruments.pressure.count = -1;
-    }) == Alarm::depth_gauge);
+    Watched blind;
+    const Change no_depth = [](auto& in) { in.instruments.depth.count = in.instruments.pressure.count = -1; };
+    CHECK((blind.run(1, no_depth) == Alarm::depth_gauge && blind.out.setpoint.speed == 0));
   }
 
   TEST_CASE("GPS is lost after four seconds at the surface, and the surface ends at 15 cm, as far down as GPS works") {
