@@ -47,8 +47,8 @@ class StuckRuns {
   std::thread thread_;
 };
 
+/// `stop`: a run ends at its next second, without a result. `stuck`: who looks after those that never do; null: nobody.
 struct Oversight {
-  /// `stops`: a run ends at its next second, without a result. `knows`: who is told of those that never do, if anybody.
   Oversight(const std::atomic<bool>& stops, StuckRuns* knows = nullptr) : stop(stops), stuck(knows) {}
 
   const std::atomic<bool>& stop;

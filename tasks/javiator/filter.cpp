@@ -250,7 +250,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   const std::int64_t before = std::exchange(state.before.activation, tick.activation);
   const std::int64_t left_out = before < 0 ? 0 : tick.activation - before - 1;  // none since a restart
   if (left_out > 0) {
-    // what it would have estimated, had nothing been heard
+    // as if no answer had come meanwhile; what it last heard then is not kept, so rates and forces are those of now
     In unheard = in;
     unheard.sensors.answers = state.before.answers;
     for (std::int64_t i = 0; i < std::min(left_out, longest_pause); ++i) step(p, dt, unheard, state, out);

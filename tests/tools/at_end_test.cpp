@@ -216,8 +216,7 @@ TEST_SUITE("tools/at_end") {
     CHECK(o.vehicle["mishap"].is_string());
     CHECK(o.vehicle_exit_code == 1);
     CHECK(o.replay["verdict"] == "same");
-    CHECK(o.replay["judgement"]["not_at_rest"] ==
-          "the vehicle of the run did not come to rest, as far as its recording goes");
+    CHECK(o.replay["judgement"]["not_at_rest"] == "the vehicle of the run did not come to rest");
     CHECK(o.info.find("\n  ended       as SIGTERM ended the run\n") != std::string::npos);
     CHECK(o.info.find(" s on the vehicle was to come to rest: NOT AT REST\n") != std::string::npos);
   }

@@ -204,8 +204,9 @@ int replay(const ReplayOptions& options) {
   verdict.left_out = find_left_out(graph, report);
   const bool is_of_run = world == RecordedWorld::truth && comparison.evidence != Evidence::diverged;
   if (is_of_run && !comparison.interrupted) verdict.mishaps = read_mishaps(log.recording());
-  if (const auto rest = read_rest(log.recording()); rest && !rest->reached && is_of_run && !comparison.interrupted)
-    verdict.not_at_rest = "the vehicle of the run did not come to rest, as far as its recording goes";
+  if (const auto rest = read_rest(log.recording());
+      rest && !rest->reached && log.end() && is_of_run && !comparison.interrupted)
+    verdict.not_at_rest = "the vehicle of the run did not come to rest";
   const RunOutcome outcome{.state = executor.state(),
                            .report = report,
                            .rest = executor.rest(),
