@@ -65,7 +65,7 @@ void JaviatorVehicle::data(const javiator::JaviatorData& d) {
 
 void JaviatorVehicle::send_motors(const tasks::MotorCommand& motors, messages::Receiver& system) {
   // more than once: the link may lose it, and a Robostix that was started anew is locked
-  if (motors.unlocked && (!unlocked_ || id_ % unlock_every == 0))
+  if (motors.unlocked && (!unlocked_ || (id_ + 1) % unlock_every == 0))
     system.receive(messages::refer_to(javiator::SwitchState{}));
   if (!motors.unlocked && unlocked_) system.receive(messages::refer_to(javiator::ShutDown{}));
   unlocked_ = motors.unlocked;

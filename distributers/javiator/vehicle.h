@@ -30,7 +30,7 @@ class JaviatorVehicle {
                   send<&Out::motors>(&JaviatorVehicle::send_motors));
   }
 
-  /// A ShutDown too many does no harm; a SwitchState might.
+  /// Who only hands over what is safe does not unlock motors; a ShutDown too many does no harm.
   void take_over() { unlocked_ = true; }
   void serialize(Archive& archive) { archive(unlocked_, id_, answered_, number_); }
 

@@ -150,6 +150,11 @@ TEST_SUITE("distributers/javiator_vehicle") {
     v.command(sent, false, {});
     CHECK(sent.order == "mummsmm");
     sent.order.clear();
+    Vehicle guarded;  // one that takes over unlocks nothing
+    guarded.distributer.take_over();
+    guarded.command(sent, true, {});
+    CHECK(sent.order == "m");
+    sent.order.clear();
     for (int i = 0; i < 150; ++i) v.command(sent, true, {});
     CHECK(std::count(sent.order.begin(), sent.order.end(), 'm') == 150);
     CHECK(std::count(sent.order.begin(), sent.order.end(), 'u') == 3);

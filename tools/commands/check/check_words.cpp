@@ -34,7 +34,7 @@ std::string assumption(const Graph& graph) {
     overhead = ", with " + duration_text(platform.dispatch) + " for each activation and " +
                duration_text(platform.copy) + " for each byte handed on";
   const bool has_cores = std::any_of(graph.tasks.begin(), graph.tasks.end(), [](const Task& t) { return t.core; });
-  return how + overhead + (has_cores && !policy.keeps_core ? "; whatever 'core' tasks have" : "") +
+  return how + overhead + (has_cores && !policy.keeps_core ? "; 'core' is ignored" : "") +
          (platform.phasing == Phasing::any ? "; whatever the offsets" : "");
 }
 

@@ -19,7 +19,7 @@ nlohmann::ordered_json schedule_json(const Graph& graph) {
   if (graph.tasks.empty() || std::any_of(graph.tasks.begin(), graph.tasks.end(), [](const Task& t) { return !t.wcet; }))
     return nullptr;
   const analysis::System system = analysis::system_of(graph);
-  const analysis::Result result = analysis::check(system);
+  const analysis::Result result = analysis::check(graph);
   const analysis::TimeLine line = analysis::time_line_of(system, result);
   Json slices = Json::array();
   for (const analysis::Slice& s : line.slices) slices.push_back({s.task, s.activation, s.begin, s.end});
