@@ -83,7 +83,7 @@ void JarolCore::gather() {
   for (const std::size_t i : threads_order(graph_)) {
     const Task& task = graph_.tasks[i];
     const Cadence cadence(rounds_of("task '" + task.name + "'", task.period));
-    tasks_.push_back({activations[i], publishes[i], cadence, task.period, 0});
+    tasks_.push_back({activations[i], publishes[i], cadence, task.period});
   }
 }
 

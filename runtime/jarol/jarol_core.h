@@ -114,7 +114,6 @@ class JarolCore {
     const Publish* publish = nullptr;
     Cadence cadence;
     Duration period{};
-    std::int64_t activations = 0;
   };
 
   // A thread, and whether it has ended.

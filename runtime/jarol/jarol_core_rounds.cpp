@@ -128,7 +128,8 @@ void JarolCore::run_round(std::int64_t round) {
 
 void JarolCore::run_task(Counted& task, const Now& now) {
   const Activation& activation = *task.activation;
-  const Tick tick{now.instant, task.activations++, task.period};
+  // numbered by the clock: those of rounds that were left out have theirs
+  const Tick tick{now.instant, now.instant / task.period, task.period};
   const Duration begin = RealClock::monotonic();
   running_.activation.store(tick.activation, std::memory_order_relaxed);
   running_.instant.store(tick.now, std::memory_order_relaxed);

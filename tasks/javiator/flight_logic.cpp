@@ -20,8 +20,16 @@ bool lies_over(const FlightLogic::Param& p, const FlightEstimate& e) {
   return (e.rates_known || e.lean_known) && std::cos(e.roll) * std::cos(e.pitch) < std::cos(p.overturned);
 }
 
+// Its rotors give what they can, and it does not rise.
+bool lacks_lift(const FlightLogic::Param& p, const FlightLogic::In& in, const FlightDirective& d) {
+  constexpr double below = 0.1, slow = 0.05;  // m, m/s
+  const FlightEstimate& e = in.estimate;
+  return in.lift.thrust > p.full && e.altitude < d.altitude - below && e.climb < slow;
+}
+
 // Why it can't go on flying as it is commanded, if so.
-Cause find_cause(const FlightLogic::Param& p, const FlightLogic::In& in, bool wants_position, double unheard) {
+Cause find_cause(const FlightLogic::Param& p, const FlightLogic::In& in, bool wants_position, double unheard,
+                 double without_lift) {
   const FlightEstimate& e = in.estimate;
   if (in.motors.weak != Motor::none) return Cause::motor_weak;
   if (const Cause lean = find_lean(p, e); lean != Cause::none) return lean;
@@ -35,13 +43,14 @@ Cause find_cause(const FlightLogic::Param& p, const FlightLogic::In& in, bool wa
   if (e.battery == 0) return Cause::bmu_lost;  // which measures it, and never has
   if (e.battery < p.battery_limit) return Cause::battery_low;
   if (wants_position && !e.position_known) return Cause::position_lost;
+  if (without_lift > p.lift_patience) return Cause::no_lift;
   return Cause::none;
 }
 
 void enter(FlightState next, Cause cause, FlightLogic::State& state, FlightDirective& d) {
   d.state = next;
   d.cause = cause;
-  state.since = state.still = state.lies_over = 0;
+  state.since = state.still = state.lies_over = state.without_lift = 0;
 }
 
 // Where it comes to rest; but in a turn, or where its lasers have not seen enough, along the walls that it can see.
@@ -111,7 +120,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   trim(command, e, state.trim, d);
 
   if (d.state == FlightState::starting) {
-    const Cause cause = find_cause(p, in, wants_position, state.unheard);
+    const Cause cause = find_cause(p, in, wants_position, state.unheard, state.without_lift);
     if (cause != Cause::none) {
       enter(FlightState::ground, cause, state, d);
     } else if (state.since >= p.spin_up) {
@@ -119,8 +128,13 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
     }
   }
   if (d.state == FlightState::flying) {
-    const Cause cause = find_cause(p, in, wants_position, state.unheard);
-    if (cause != Cause::none) {
+    state.without_lift = lacks_lift(p, in, d) ? state.without_lift + dt : 0;
+    const Cause cause = find_cause(p, in, wants_position, state.unheard, state.without_lift);
+    const bool leans = cause == Cause::roll || cause == Cause::pitch;
+    if (leans && e.attitude_known && e.altitude_known && e.altitude < p.tips_below) {
+      // it goes on over its feet, and thrust would only throw it
+      enter(FlightState::halt, cause, state, d);
+    } else if (cause != Cause::none) {
       begin_landing(cause, e, state, d);
     } else {
       follow(command, wants_position, d);
@@ -130,7 +144,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
     d.hold_position = e.position_known;
     // what fails only now is told, too; that nobody is heard any more is nothing then
     if (d.cause == Cause::none || d.cause == Cause::operator_lost)
-      if (const Cause cause = find_cause(p, in, wants_position, 0); cause != Cause::none) d.cause = cause;
+      if (const Cause cause = find_cause(p, in, wants_position, 0, 0); cause != Cause::none) d.cause = cause;
     // once it descends, only the ground can stop it or take its weight
     const bool still = e.altitude_known && e.altitude < 0.5 && std::abs(e.climb) < p.still;
     state.still = still || in.lift.thrust < p.light ? state.still + dt : 0;

@@ -25,6 +25,9 @@ struct FlightLogic {
     double light = 0.6;
     double touch_time = 0.3;
     double overturned = 1;
+    double tips_below = 0.2;
+    double full = 1.4;
+    double lift_patience = 1.5;
     static constexpr auto fields() {
       using P = Param;
       return describe(
@@ -39,7 +42,10 @@ struct FlightLogic {
           field<&P::light>("", "thrust below which the ground must carry"),
           field<&P::touch_time>("s", "for which it is still or light when it has touched down"),
           field<&P::overturned>("rad", "of lean, beyond which for touch_time a landing ends with the motors locked")
-              .in(0, std::numbers::pi));
+              .in(0, std::numbers::pi),
+          field<&P::tips_below>("m", "altitude below which a lean beyond its limit locks the motors: it tips over"),
+          field<&P::full>("", "thrust that lifts whatever it may carry"),
+          field<&P::lift_patience>("s", "for which that does not lift it, before it lands"));
     }
   };
   struct In {
@@ -55,7 +61,7 @@ struct FlightLogic {
     }
   };
   struct State {
-    double since = 0, unheard = 0, still = 0, lies_over = 0;
+    double since = 0, unheard = 0, still = 0, lies_over = 0, without_lift = 0;
     std::uint32_t state_switches = 0, shut_downs = 0;
     TrimKeys trim{};
     static constexpr auto fields() {
@@ -63,6 +69,7 @@ struct FlightLogic {
       return describe(field<&S::since>("s", "the state began"), field<&S::unheard>("s", "the operator was heard"),
                       field<&S::still>("s", "it has not moved up or down"),
                       field<&S::lies_over>("s", "it has leant like one that has overturned"),
+                      field<&S::without_lift>("s", "it has not risen at full thrust"),
                       field<&S::state_switches>("", "of the operator, up to now"),
                       field<&S::shut_downs>("", "likewise"), field<&S::trim>("", "likewise"));
     }

@@ -81,11 +81,12 @@ enum class LandingCause : std::uint8_t {
   bmu_lost,
   battery_low,
   answers_late,
-  motor_weak
+  motor_weak,
+  no_lift
 };
 
 constexpr auto enumerators(LandingCause) {
-  return std::array<Enumerator<LandingCause>, 13>{
+  return std::array<Enumerator<LandingCause>, 14>{
       {{"none", LandingCause::none},
        {"roll", LandingCause::roll, "its roll is beyond the limit"},
        {"pitch", LandingCause::pitch, "its pitch is beyond the limit"},
@@ -98,7 +99,8 @@ constexpr auto enumerators(LandingCause) {
        {"bmu_lost", LandingCause::bmu_lost, "the BMU reports nothing credible"},
        {"battery_low", LandingCause::battery_low, "the battery's voltage is below the limit"},
        {"answers_late", LandingCause::answers_late, "the Robostix does not answer in time"},
-       {"motor_weak", LandingCause::motor_weak, "a motor gives less thrust than is demanded"}}};
+       {"motor_weak", LandingCause::motor_weak, "a motor gives less thrust than is demanded"},
+       {"no_lift", LandingCause::no_lift, "it does not rise at full thrust"}}};
 }
 
 /// What the operator is sent.

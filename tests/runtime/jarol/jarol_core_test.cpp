@@ -221,6 +221,27 @@ connections: [from -> seldom.a, from -> seldom.b, seldom.out -> to, often -> rel
     }));
   }
 
+  TEST_CASE("activations are numbered by the clock, also after rounds that were left out") {
+    const std::string text = R"(graph: t
+timing: {period: 10ms}
+distributers: {a_plant: {type: Plant, link: {type: test}}}
+communicators: {to_plant: {channel: a_plant.actuator}}
+tasks: {c: {type: Counter}, long: {type: Troublesome, parameters: {lasts: 55ms, slow: 50ms}}}
+connections: [c.out -> to_plant]
+)";
+    CHECK(tests::at_some_speed([&](int times) {
+      const Graph graph = graph_with_outside(tests::slowed(text, times));
+      External::Diary plant;
+      std::vector<std::unique_ptr<ExternalSystem>> channels;
+      channels.push_back(std::make_unique<External>(plant));
+      JarolCore core(graph, std::move(channels));
+      core.run_for(times * 200ms);
+      // again where the machine was too slow for the round at 50 ms, or for the last
+      if (core.threads_report().rounds > 16 || plant.handed.empty()) return false;
+      return plant.handed.back() == 19;
+    }));
+  }
+
   TEST_CASE("every fault is counted, the first thousand are reported") {
     std::string text = "graph: t\ntiming: {period: 1ms}\ntasks:\n";
     for (int i = 0; i < 50; ++i)

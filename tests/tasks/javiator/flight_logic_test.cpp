@@ -263,6 +263,50 @@ TEST_SUITE("tasks/flight_logic") {
     CHECK(after(3, 0, 100, false) == FlightState::landing);
   }
 
+  TEST_CASE("one that leans beyond its limits below 20 cm tips over its feet: its motors are locked") {
+    const auto at = [](double altitude, double pitch, bool is_known = true) {
+      Logic logic;
+      logic.fly();
+      logic.in.estimate.altitude = altitude;
+      logic.in.estimate.pitch = pitch;
+      logic.in.estimate.altitude_known = is_known;
+      logic.run(1);
+      return logic.out.directive;
+    };
+    CHECK(at(0.19, -0.59).state == FlightState::flying);
+    CHECK(at(0.19, -0.61).state == FlightState::halt);
+    CHECK(at(0.19, -0.61).cause == LandingCause::pitch);
+    CHECK(at(0.21, -0.61).state == FlightState::landing);
+    CHECK(at(0.19, -0.61, false).state == FlightState::landing);
+  }
+
+  TEST_CASE("one that does not rise at full thrust for 1.5 s lands, and says so") {
+    const auto after = [](int periods, double thrust, double altitude, double climb) {
+      Logic logic;
+      logic.fly();
+      logic.in.lift.thrust = thrust;
+      logic.in.estimate.altitude = altitude;
+      logic.in.estimate.climb = climb;
+      logic.run(periods);
+      return logic.out.directive.cause;
+    };
+    CHECK(after(100, 1.41, 0.89, 0.04) == LandingCause::none);
+    CHECK(after(102, 1.41, 0.89, 0.04) == LandingCause::no_lift);
+    CHECK(after(1000, 1.39, 0.89, 0.04) == LandingCause::none);
+    CHECK(after(1000, 1.41, 0.91, 0.04) == LandingCause::none);
+    CHECK(after(1000, 1.41, 0.89, 0.06) == LandingCause::none);
+    // gusts that press it down for a second each
+    Logic logic;
+    logic.fly();
+    logic.in.estimate.altitude = 0.5;
+    for (int i = 0; i < 10; ++i) {
+      logic.in.lift.thrust = 1.5;
+      logic.run(67);
+      logic.in.lift.thrust = 1;
+      CHECK(logic.run(1) == FlightState::flying);
+    }
+  }
+
   TEST_CASE("what fails in a landing is told, once, but that nobody is heard") {
     Logic logic;
     logic.fly();
