@@ -185,7 +185,7 @@ struct MotorMixer {
 };
 
 struct HelicopterReporter {
-  static constexpr std::string_view summary = "tells the operator attitude, altitude, position and state";
+  static constexpr std::string_view summary = "reports attitude, altitude, position and state to the operator";
   struct In {
     FlightEstimate estimate{};
     FlightDirective directive{};

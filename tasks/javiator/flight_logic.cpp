@@ -142,7 +142,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   }
   if (d.state == FlightState::landing) {
     d.hold_position = e.position_known;
-    // what fails only now is told, too; that nobody is heard any more is nothing then
+    // what fails only now is reported, too; that nobody is heard any more is nothing then
     if (d.cause == Cause::none || d.cause == Cause::operator_lost)
       if (const Cause cause = find_cause(p, in, wants_position, 0, 0); cause != Cause::none) d.cause = cause;
     // once it descends, only the ground can stop it or take its weight

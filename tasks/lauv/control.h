@@ -124,7 +124,7 @@ struct FinAllocator {
 };
 
 struct LauvReport {
-  static constexpr std::string_view summary = "tells the operator depth, pitch, heading, speed and alarm";
+  static constexpr std::string_view summary = "reports depth, pitch, heading, speed and alarm to the operator";
   struct In {
     Motion motion{};
     Condition condition{};

@@ -17,7 +17,7 @@ namespace jarol::tasks {
 /// those of the place filter, from the first fix on: before, nobody knows where it is. After `restart` fixes in a row
 /// that fit nothing the place begins anew with the next one.
 struct LauvNavigation {
-  static constexpr std::string_view summary = "tells the submarine's motion from its instruments";
+  static constexpr std::string_view summary = "estimates the submarine's motion from its instruments";
   struct Param {
     double angle_time = 0.5;
     double depth_time = 0.7;

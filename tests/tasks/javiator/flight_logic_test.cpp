@@ -307,7 +307,7 @@ TEST_SUITE("tasks/flight_logic") {
     }
   }
 
-  TEST_CASE("what fails in a landing is told, once, but that nobody is heard") {
+  TEST_CASE("what fails in a landing is reported, once, but that nobody is heard") {
     Logic logic;
     logic.fly();
     logic.press();

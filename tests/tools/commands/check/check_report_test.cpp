@@ -154,7 +154,7 @@ tasks:
     CHECK(drawn.output.find("<svg xmlns=") != std::string::npos);
   }
 
-  TEST_CASE("a least deadline that puts its task before another in the table is told only where both hold then") {
+  TEST_CASE("a least deadline that puts its task before another in the table is stated only where both hold then") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", R"(graph: t
 tasks:
