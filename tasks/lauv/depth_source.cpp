@@ -1,6 +1,7 @@
 #include "tasks/lauv/depth_source.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace jarol::tasks {
 namespace {
@@ -12,22 +13,36 @@ constexpr double gravity = 9.81, water_density = 1000, air_pressure = 1013.25;  
 double calc_depth(double pressure) { return (pressure - air_pressure) * 100 / (water_density * gravity); }
 
 void DepthSource::take(const Model& model, const Instruments& i, double dt) {
+  constexpr std::int64_t enough = 3;  // fixes: one may have been late, or another's
   const bool has_fix = i.place.count > fixes;
-  fixes = i.place.count;
-  const auto is_known = [&](Gauge& g, double reading, std::int64_t count) {
+  since_fix += dt;
+  if (since_fix > model.timeout) fixes_in_row = 0;
+  if (has_fix) {
+    fixes = i.place.count;
+    ++fixes_in_row;
+    since_fix = 0;
+  }
+  const auto reports = [&](Gauge& g, double reading, std::int64_t count) {
     g.silence = count > g.count ? 0 : g.silence + dt;
     g.count = count;
-    if (has_fix) g.wrong = reading > model.fix_depth + model.fix_error;
-    return count > 0 && g.silence <= model.timeout && !g.wrong;
+    if (has_fix) g.contradicted = reading > model.fix_depth + model.fix_error ? g.contradicted + 1 : 0;
+    return count > 0 && g.silence <= model.timeout;
   };
-  const double by_pressure = calc_depth(i.pressure.value);
-  const bool gauge_known = is_known(gauge, i.depth.value, i.depth.count),
-             pressure_known = is_known(pressure, by_pressure, i.pressure.count);
-  if (pressure_known && (!gauge_known || by_pressure > i.depth.value + model.error)) {
+  const double by_gauge = i.depth.value, by_pressure = calc_depth(i.pressure.value);
+  const bool gauge_reports = reports(gauge, by_gauge, i.depth.count),
+             pressure_reports = reports(pressure, by_pressure, i.pressure.count);
+  const bool agree = gauge_reports && pressure_reports && std::abs(by_gauge - by_pressure) <= model.error;
+  const auto is_wrong = [&](const Gauge& g, const Gauge& other, bool other_reports) {
+    if (g.contradicted < enough || (agree && other.contradicted > 0)) return false;
+    return fixes_in_row >= enough || (other_reports && other.contradicted == 0);
+  };
+  const bool gauge_known = gauge_reports && !is_wrong(gauge, pressure, pressure_reports),
+             pressure_known = pressure_reports && !is_wrong(pressure, gauge, gauge_reports);
+  if (pressure_known && (!gauge_known || by_pressure > by_gauge + model.error)) {
     depth = by_pressure;
   } else if (gauge_known) {
-    depth = i.depth.value;
-  } else if (has_fix) {
+    depth = by_gauge;
+  } else if (fixes_in_row >= enough) {
     depth = std::min(depth, model.fix_depth);
   }
 }

@@ -11,9 +11,11 @@ namespace jarol::tasks {
 /// In m below the surface of fresh water, from a pressure in hPa.
 double calc_depth(double pressure);
 
-/// The gauge, while it reports; then the pressure. Where they differ too much, the deeper one. A fix of GPS comes from
-/// the surface alone: a reading that is deeper then is wrong, until a fix agrees with it. While neither is known it
-/// stays where it was last, or at the surface once there is a fix.
+/// The gauge, while it reports; then the pressure. Where they differ too much, the deeper one. Fixes of GPS come from the
+/// surface: a reading that is deeper beside three of them is wrong, until a fix agrees with it; but not where gauge and
+/// pressure agree, and, where nothing shows a smaller depth, only while fixes go on: one that was late, or another's,
+/// takes no submarine for surfaced. While neither depth is known it stays where it was last, or at the surface once
+/// there are three fixes in a row.
 struct DepthSource {
   struct Model {
     double timeout;                      // s
@@ -22,19 +24,23 @@ struct DepthSource {
   struct Gauge {
     std::int64_t count = 0;
     double silence = 0;
-    bool wrong = false;
+    std::int64_t contradicted = 0;
     static constexpr auto fields() {
       using G = Gauge;
       return describe(field<&G::count>("", "readings so far"), field<&G::silence>("s", "since the last one"),
-                      field<&G::wrong>("", "deeper than where GPS works, as of the last fix"));
+                      field<&G::contradicted>("", "fixes beside which it was deeper than where GPS works, since one "
+                                                  "agreed"));
     }
   };
   Gauge gauge{}, pressure{};
-  std::int64_t fixes = 0;
+  std::int64_t fixes = 0, fixes_in_row = 0;
+  double since_fix = 0;
   double depth = 0;
   static constexpr auto fields() {
     using S = DepthSource;
     return describe(field<&S::gauge>(), field<&S::pressure>(), field<&S::fixes>("", "of GPS, so far"),
+                    field<&S::fixes_in_row>("", "none missed between them"),
+                    field<&S::since_fix>("s", "since the last one"),
                     field<&S::depth>("m", "by the best source"));
   }
 
