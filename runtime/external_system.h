@@ -68,6 +68,8 @@ class ExternalSystem {
   virtual void copy_true_values(void*) const {}
   /// What has become of that vehicle that no mission wants; empty: nothing.
   virtual std::string mishap() const { return {}; }
+  /// Why that vehicle is not at rest, whatever its graph believes; empty: it is, or it is not known.
+  virtual std::string unrest() const { return {}; }
 
   /// Step 0 of an instant: the external system reaches it with the inputs that it held before; sensors sample.
   virtual void reach(Duration instant) = 0;

@@ -72,6 +72,9 @@ class SteppedVehicle {
 
   /// What has become of it that no mission wants; none: nothing, or it is not known here.
   virtual std::optional<Mishap> mishap() const { return std::nullopt; }
+
+  /// Why it is not at rest by its true state, as in "it is 7.2 m deep"; empty: it is, or it is not known here.
+  virtual std::string unrest() const { return {}; }
 };
 
 /// A simulated vehicle in this process.

@@ -22,6 +22,7 @@ class SimulatedSystem : public ExternalSystem {
   const Type* true_type() const override { return vehicle_->true_type(); }
   void copy_true_values(void* to) const override { copy_value(*true_type(), to, vehicle_->true_values()); }
   std::string mishap() const override;
+  std::string unrest() const override { return vehicle_->unrest(); }
   void reach(Duration instant) override;
   bool take(std::size_t channel, void* value) override;
   void hand_over(std::size_t channel, const void* value) override;

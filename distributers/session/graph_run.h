@@ -66,7 +66,7 @@ class GraphRun {
   void restore(const Checkpoint& checkpoint);
 
   /// After the last instant: who looks on has got all, but for sinks that have failed: throws what these threw.
-  void close_sinks() { show_mishaps_and_close(sinks_, graph_, channels_, executor_.report()); }
+  void close_sinks() { show_mishaps_and_close(sinks_, graph_, channels_, executor_.report(), executor_.rest()); }
 
   /// Of a run that was to go on `until` and ended like that.
   RunVerdict judge(Duration until, const RunEnd& end) const;

@@ -27,17 +27,22 @@ std::string to_text(const RunVerdict::VehicleMishap& mishap) {
   return "the vehicle of '" + mishap.distributer + "' has " + mishap.text;
 }
 
-std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<ExternalSystem*>& channels) {
+std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<ExternalSystem*>& channels,
+                                                    const std::optional<RestReport>& rest) {
   std::vector<RunVerdict::VehicleMishap> found;
-  for (std::size_t i = 0; i < channels.size(); ++i)
-    if (const std::string mishap = channels[i]->mishap(); !mishap.empty())
-      found.push_back({graph.distributers[i].name, mishap});
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const std::string& name = graph.distributers[i].name;
+    if (std::string mishap = channels[i]->mishap(); !mishap.empty()) found.push_back({name, std::move(mishap)});
+    if (!rest || !rest->reached) continue;
+    if (const std::string unrest = channels[i]->unrest(); !unrest.empty())
+      found.push_back({name, "not come to rest: " + unrest});
+  }
   return found;
 }
 
 void show_mishaps_and_close(RunSinks& sinks, const Graph& graph, const std::vector<ExternalSystem*>& channels,
-                            const Report& report) {
-  for (const RunVerdict::VehicleMishap& mishap : find_mishaps(graph, channels))
+                            const Report& report, const std::optional<RestReport>& rest) {
+  for (const RunVerdict::VehicleMishap& mishap : find_mishaps(graph, channels, rest))
     sinks.show({.kind = RunEvent::Kind::mishap,
                 .instant = report.simulated,
                 .cause = mishap.text,
@@ -101,7 +106,7 @@ RunVerdict judge_run(const Graph& graph, const Report& report, const std::vector
     if (cut_short.empty() && report.stopped)
       cut_short = "a fault ended the run at " + seconds_text(report.simulated) + " s";
     verdict.expectations = sinks.judge(judged_until(rest_begun, until, report.covered), cut_short);
-    verdict.mishaps = find_mishaps(graph, channels);
+    verdict.mishaps = find_mishaps(graph, channels, rest);
   }
   verdict.not_at_rest = not_at_rest_text(graph, rest, end);
   verdict.left_out = find_left_out(graph, report);

@@ -31,12 +31,14 @@ struct RunVerdict {
 /// "the vehicle of 'robostix' has crashed: a rotor met the ground, at 10.32 s".
 std::string to_text(const RunVerdict::VehicleMishap& mishap);
 
-/// What became of the vehicles that are simulated on these channels, one per distributer of the graph.
-std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<ExternalSystem*>& channels);
+/// What became of the vehicles that are simulated on these channels, one per distributer of the graph; so too where the
+/// run came to rest by what its graph believes, and the vehicle did not.
+std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<ExternalSystem*>& channels,
+                                                    const std::optional<RestReport>& rest);
 
 /// Shows that to those who look on at a run that is over, and closes them. Throws what a sink threw.
 void show_mishaps_and_close(RunSinks& sinks, const Graph& graph, const std::vector<ExternalSystem*>& channels,
-                            const Report& report);
+                            const Report& report, const std::optional<RestReport>& rest);
 
 /// The distributers of vehicles from which nothing came over their links, though the graph takes something from them.
 std::vector<std::string> find_unheard(const Graph& graph, const std::vector<ExternalSystem*>& channels);

@@ -271,4 +271,31 @@ TEST_SUITE("tools/at_end") {
       check_surfaced(o);
     }
   }
+
+  TEST_CASE(
+      "where a graph believes a vehicle at rest that is not, its true state fails the run, and whoever replays it") {
+    const Files files;
+    for (const char* concurrency : {"exotasks", "threads"}) {
+      CAPTURE(std::string(concurrency));
+      const std::string log = files.folder / "deep.mcap";
+      const auto run = command::run_jarol(
+          "run specs/exolauv.yaml --clock real --for 9s --json --set fault_limit=100% --set expect=nothing "
+          "--concurrency " +
+              std::string(concurrency) +
+              " --set 'at_end.until=navigation.motion.z < 50' --set distributers.neptus.link.file=" + files.deep +
+              (*concurrency == 'e' ? " --record " + log : ""),
+          "2>/dev/null");
+      CHECK(run.exit_code == 1);
+      const json report = json::parse(run.output);
+      CHECK(report["rest"]["reached"] == true);
+      REQUIRE(report["judgement"]["mishaps"].size() == 1);
+      const std::string text = report["judgement"]["mishaps"][0]["text"];
+      CHECK(text.starts_with("not come to rest: it is "));
+      CHECK(text.ends_with(" m deep"));
+      if (*concurrency == 't') continue;
+      const auto replay = command::run_jarol("replay " + log);
+      CHECK(replay.exit_code == 1);
+      CHECK(replay.output.find("the vehicle of 'dune' has " + text) != std::string::npos);
+    }
+  }
 }

@@ -188,4 +188,25 @@ TEST_SUITE("vehicles/judge") {
     CHECK(h.y == 2);
     CHECK(h.altitude == doctest::Approx(2));
   }
+
+  TEST_CASE("at rest is a helicopter whose lowest foot is within 10 cm of the ground") {
+    const auto unrest = [](double altitude) {
+      HelicopterParameters p;
+      p.start.altitude = altitude;
+      return Helicopter(p).unrest();
+    };
+    CHECK(unrest(0) == "");
+    CHECK(unrest(0.09) == "");
+    CHECK(unrest(0.85) == "it is 0.85 m above the ground");
+  }
+
+  TEST_CASE("at rest is a submarine within a metre of the surface") {
+    const auto unrest = [](double depth) {
+      SubmarineJudge judge({}, {.z = depth});
+      return judge.unrest();
+    };
+    CHECK(unrest(0.99) == "");
+    CHECK(unrest(-0.2) == "");
+    CHECK(unrest(7.184) == "it is 7.18 m deep");
+  }
 }

@@ -39,6 +39,7 @@ class Helicopter : public Vehicle {
   const Type* true_type() const override { return &type_of<HelicopterTruth>(); }
   const void* true_values() const override { return &judge_.truth(); }
   std::optional<Mishap> mishap() const override { return judge_.mishap(); }
+  std::string unrest() const override { return judge_.unrest(); }
   void serialize(Archive& archive) override;
   VehicleState state() const override;
   /// z is that of the centre of gravity, negative above the ground.

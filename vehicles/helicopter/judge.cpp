@@ -94,4 +94,9 @@ std::optional<Mishap> HelicopterJudge::mishap() const {
                                            limits_.take_off_signal, driven_)};
 }
 
+std::string HelicopterJudge::unrest() const {
+  constexpr double stands = 0.1;  // m, wherever it leans
+  return truth().height > stands ? fmt::format("it is {:.2f} m above the ground", truth_.height) : "";
+}
+
 }  // namespace jarol::vehicles

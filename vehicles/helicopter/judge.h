@@ -23,6 +23,8 @@ class HelicopterJudge {
     return truth_;
   }
   std::optional<Mishap> mishap() const;
+  /// As of a vehicle.
+  std::string unrest() const;
 
   void serialize(Archive& archive) {
     if (!is_found_) find_truth();

@@ -52,4 +52,9 @@ void SubmarineJudge::look(std::chrono::nanoseconds instant, const VehicleState& 
   }
 }
 
+std::string SubmarineJudge::unrest() const {
+  constexpr double surfaced = 1;  // m, in waves too
+  return truth_.depth > surfaced ? fmt::format("it is {:.2f} m deep", truth_.depth) : "";
+}
+
 }  // namespace jarol::vehicles

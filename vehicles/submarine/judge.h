@@ -36,6 +36,8 @@ class SubmarineJudge {
 
   const SubmarineTruth& truth() const { return truth_; }
   const std::optional<Mishap>& mishap() const { return mishap_; }
+  /// As of a vehicle.
+  std::string unrest() const;
 
   void serialize(Archive& archive) { archive(truth_, mishap_); }
 

@@ -36,6 +36,7 @@ class Submarine : public Vehicle {
   const Type* true_type() const override { return &type_of<SubmarineTruth>(); }
   const void* true_values() const override { return &judge_.truth(); }
   std::optional<Mishap> mishap() const override { return judge_.mishap(); }
+  std::string unrest() const override { return judge_.unrest(); }
   void serialize(Archive& archive) override;
   VehicleState state() const override;
   void place(const VehicleState& state) override;

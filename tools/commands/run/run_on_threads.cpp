@@ -96,7 +96,7 @@ int run_on_threads(Loaded& loaded, Duration end, const RunOptions& run_options) 
       std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   std::string unwatched;
   try {
-    if (!run_end.hangs) show_mishaps_and_close(sinks, *loaded.graph, channels, core.report());
+    if (!run_end.hangs) show_mishaps_and_close(sinks, *loaded.graph, channels, core.report(), core.rest());
   } catch (const std::exception& error) { unwatched = error.what(); }
   const RunVerdict verdict = judge_run(*loaded.graph, core.report(), channels, sinks, core.rest(), end, run_end);
   const std::vector<FailsafeReport> failsafe = failsafe_after(run_end, *loaded.graph, channels, core.failsafe());
