@@ -1,4 +1,5 @@
 // Vehicles that come to rest before their run ends, in real time over real links, by where they truly are.
+// In one file: the runs go on side by side.
 #include <doctest/doctest.h>
 #include <signal.h>
 #include <sys/socket.h>
