@@ -149,7 +149,8 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
     const bool still = e.altitude_known && e.altitude < 0.5 && std::abs(e.climb) < p.still;
     state.still = still || in.lift.thrust < p.light ? state.still + dt : 0;
     state.lies_over = lies_over(p, e) ? state.lies_over + dt : 0;
-    if (state.lies_over > p.touch_time)
+    // out of control it is better on the ground here than somewhere else; a lean that lasers show may be another
+    if (state.lies_over > (e.attitude_known ? p.overturned_time : p.touch_time))
       enter(FlightState::halt, d.cause, state, d);
     else if (state.since > 1 && state.still > p.touch_time)
       enter(FlightState::ground, d.cause, state, d);

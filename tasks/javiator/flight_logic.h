@@ -25,6 +25,7 @@ struct FlightLogic {
     double light = 0.6;
     double touch_time = 0.3;
     double overturned = 1;
+    double overturned_time = 0.15;
     double tips_below = 0.2;
     double full = 1.4;
     double lift_patience = 1.5;
@@ -41,8 +42,9 @@ struct FlightLogic {
           field<&P::still>("m/s", "rate of descent below which it may have touched down"),
           field<&P::light>("", "thrust below which the ground must carry"),
           field<&P::touch_time>("s", "for which it is still or light when it has touched down"),
-          field<&P::overturned>("rad", "of lean, beyond which for touch_time a landing ends with the motors locked")
+          field<&P::overturned>("rad", "of lean, beyond which a landing ends with the motors locked")
               .in(0, std::numbers::pi),
+          field<&P::overturned_time>("s", "of that; of a lean that only lasers show, touch_time"),
           field<&P::tips_below>("m", "altitude below which a lean beyond its limit locks the motors: it tips over"),
           field<&P::full>("", "thrust that lifts whatever it may carry"),
           field<&P::lift_patience>("s", "for which that does not lift it, before it lands"));

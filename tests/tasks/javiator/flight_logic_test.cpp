@@ -242,25 +242,28 @@ TEST_SUITE("tasks/flight_logic") {
     CHECK(logic.out.directive.cause == LandingCause::none);
   }
 
-  TEST_CASE("a landing that has leant over for 0.3 s by what is known of it ends with the motors locked") {
-    const auto after = [](double roll, double pitch, int periods, bool is_known = true) {
+  TEST_CASE("a landing that has leant over for 0.15 s, or by its lasers for 0.3 s, ends with the motors locked") {
+    const auto after = [](double roll, double pitch, int periods, bool by_imu = true, bool by_lasers = false) {
       Logic logic;
       logic.fly();
       logic.press();
       logic.in.estimate.roll = roll;
       logic.in.estimate.pitch = pitch;
-      logic.in.estimate.rates_known = is_known;
+      logic.in.estimate.rates_known = logic.in.estimate.attitude_known = by_imu;
+      logic.in.estimate.lean_known = by_lasers;
       return logic.run(periods);
     };
     constexpr double turn = 6.283185307179586;
     CHECK(after(0.99, 0, 100) == FlightState::landing);
-    CHECK(after(1.01, 0, 19) == FlightState::landing);
-    CHECK(after(1.01, 0, 22) == FlightState::halt);
-    CHECK(after(0, -1.01, 22) == FlightState::halt);
-    CHECK(after(0.8, 0.8, 22) == FlightState::halt);  // 61 degrees from upright
+    CHECK(after(1.01, 0, 9) == FlightState::landing);
+    CHECK(after(1.01, 0, 11) == FlightState::halt);
+    CHECK(after(0, -1.01, 11) == FlightState::halt);
+    CHECK(after(0.8, 0.8, 11) == FlightState::halt);  // 61 degrees from upright
     CHECK(after(turn + 0.9, 0, 100) == FlightState::landing);
-    CHECK(after(turn + 3, 0, 22) == FlightState::halt);
-    CHECK(after(3, 0, 100, false) == FlightState::landing);
+    CHECK(after(turn + 3, 0, 11) == FlightState::halt);
+    CHECK(after(3, 0, 19, false, true) == FlightState::landing);
+    CHECK(after(3, 0, 22, false, true) == FlightState::halt);
+    CHECK(after(3, 0, 100, false, false) == FlightState::landing);
   }
 
   TEST_CASE("one that leans beyond its limits below 20 cm tips over its feet: its motors are locked") {
