@@ -24,8 +24,9 @@ struct FlightLogic {
     double still = 0.08;
     double light = 0.6;
     double touch_time = 0.3;
+    double out_of_control = 0.8;
+    double out_of_control_time = 0.1;
     double overturned = 1;
-    double overturned_time = 0.15;
     double tips_below = 0.2;
     double full = 1.4;
     double lift_patience = 1.5;
@@ -42,9 +43,12 @@ struct FlightLogic {
           field<&P::still>("m/s", "rate of descent below which it may have touched down"),
           field<&P::light>("", "thrust below which the ground must carry"),
           field<&P::touch_time>("s", "for which it is still or light when it has touched down"),
-          field<&P::overturned>("rad", "of lean, beyond which a landing ends with the motors locked")
+          field<&P::out_of_control>("rad",
+                                    "of lean that the IMU shows, beyond which a landing ends with the motors locked")
               .in(0, std::numbers::pi),
-          field<&P::overturned_time>("s", "of that; of a lean that only lasers show, touch_time"),
+          field<&P::out_of_control_time>("s", "of that"),
+          field<&P::overturned>("rad", "of lean that only lasers show, likewise, for touch_time")
+              .in(0, std::numbers::pi),
           field<&P::tips_below>("m", "altitude below which a lean beyond its limit locks the motors: it tips over"),
           field<&P::full>("", "thrust that lifts whatever it may carry"),
           field<&P::lift_patience>("s", "for which that does not lift it, before it lands"));

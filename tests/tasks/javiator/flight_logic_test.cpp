@@ -242,7 +242,7 @@ TEST_SUITE("tasks/flight_logic") {
     CHECK(logic.out.directive.cause == LandingCause::none);
   }
 
-  TEST_CASE("a landing that has leant over for 0.15 s, or by its lasers for 0.3 s, ends with the motors locked") {
+  TEST_CASE("a landing that has leant over for 0.1 s, or by its lasers for 0.3 s, ends with the motors locked") {
     const auto after = [](double roll, double pitch, int periods, bool by_imu = true, bool by_lasers = false) {
       Logic logic;
       logic.fly();
@@ -254,13 +254,14 @@ TEST_SUITE("tasks/flight_logic") {
       return logic.run(periods);
     };
     constexpr double turn = 6.283185307179586;
-    CHECK(after(0.99, 0, 100) == FlightState::landing);
-    CHECK(after(1.01, 0, 9) == FlightState::landing);
-    CHECK(after(1.01, 0, 11) == FlightState::halt);
-    CHECK(after(0, -1.01, 11) == FlightState::halt);
-    CHECK(after(0.8, 0.8, 11) == FlightState::halt);  // 61 degrees from upright
-    CHECK(after(turn + 0.9, 0, 100) == FlightState::landing);
-    CHECK(after(turn + 3, 0, 11) == FlightState::halt);
+    CHECK(after(0.79, 0, 100) == FlightState::landing);
+    CHECK(after(0.81, 0, 5) == FlightState::landing);
+    CHECK(after(0.81, 0, 8) == FlightState::halt);
+    CHECK(after(0, -0.81, 8) == FlightState::halt);
+    CHECK(after(0.6, 0.6, 8) == FlightState::halt);  // 47 degrees from upright
+    CHECK(after(turn + 0.7, 0, 100) == FlightState::landing);
+    CHECK(after(turn + 3, 0, 8) == FlightState::halt);
+    CHECK(after(0.99, 0, 100, false, true) == FlightState::landing);
     CHECK(after(3, 0, 19, false, true) == FlightState::landing);
     CHECK(after(3, 0, 22, false, true) == FlightState::halt);
     CHECK(after(3, 0, 100, false, false) == FlightState::landing);
