@@ -56,8 +56,25 @@ struct CheckpointRefused : SessionError {
   using SessionError::SessionError;
 };
 
-/// A vehicle whose motion has left what numbers can express, or one in another process that is gone.
+/// A vehicle whose motion has left what numbers can express, one in another process that is gone, or whatever a vehicle
+/// or a distributer of the program's own throws.
 struct SystemLost : SessionError {
+  using SessionError::SessionError;
+};
+
+/// A value that was published is larger than what looks on at a run takes (specs/README.md); the run is over.
+struct ValueTooLarge : SessionError {
+  using SessionError::SessionError;
+};
+
+/// There is no text of a graph.
+struct NoSource : SessionError {
+  using SessionError::SessionError;
+};
+
+/// The program was compiled with options by which its values lie otherwise in memory than the library's, or by which it
+/// computes otherwise.
+struct WrongBuild : SessionError {
   using SessionError::SessionError;
 };
 

@@ -7,10 +7,12 @@
 
 namespace jarol {
 
-Session::Session(const distributers::Registries& known, const std::string& path, SessionOptions options)
-    : Session(known, read_source(path), std::move(options)) {}
-Session::Session(const distributers::Registries& known, std::shared_ptr<const Source> source, SessionOptions options)
-    : run_(std::make_unique<Run>(known, std::move(source), options)) {}
+Session::Session(const distributers::Registries& known, const std::string& path, SessionOptions options,
+                 const BuildOptions& program)
+    : Session((require_built_alike(program), known), read_source(path), std::move(options), program) {}
+Session::Session(const distributers::Registries& known, std::shared_ptr<const Source> source, SessionOptions options,
+                 const BuildOptions& program)
+    : run_((require_built_alike(program), std::make_unique<Run>(known, std::move(source), options))) {}
 Session::~Session() = default;
 Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;

@@ -1,6 +1,7 @@
 // A run that a program steps, feeds and watches: a graph joined to its world, on the virtual clock or the real one.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -8,6 +9,7 @@
 
 #include "distributers/session/errors.h"
 #include "distributers/session/load.h"
+#include "distributers/session/program_build.h"
 #include "distributers/session/verdict.h"
 #include "graph/values/type_of.h"
 #include "graph/values/value.h"
@@ -45,20 +47,25 @@ class Session {
  public:
   /// A graph's file with what it may name, which outlives the session. Throws SpecError with all that is wrong with the
   /// file, the options and the links; UnknownName where nothing fits a name in `fed`; NeedsRealClock;
-  /// NotExecutable, for a number of workers that can't be, too.
-  Session(const distributers::Registries& known, const std::string& path, SessionOptions options = {});
-  /// The same of a text; paths in it are relative to the folder of the source's name.
-  Session(const distributers::Registries& known, std::shared_ptr<const Source> source, SessionOptions options = {});
+  /// NotExecutable, for a number of workers that can't be, too; WrongBuild where the program was compiled with options
+  /// that give its values another layout or another arithmetic.
+  Session(const distributers::Registries& known, const std::string& path, SessionOptions options = {},
+          const BuildOptions& program = options_of_this_file());
+  /// The same of a text; paths in it are relative to the folder of the source's name. Throws NoSource for a null one,
+  /// too.
+  Session(const distributers::Registries& known, std::shared_ptr<const Source> source, SessionOptions options = {},
+          const BuildOptions& program = options_of_this_file());
+  Session(const distributers::Registries& known, std::nullptr_t, SessionOptions options = {}) = delete;
   ~Session();
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;
 
   /// Covers the instants from `now()` to before `end`; in pieces it is the same run. Ends earlier at a fault that stops
   /// the run. Throws WrongInstant for an `end` before `now()` or after ten years; RunOver where it was stopped before,
-  /// or finished; SystemLost.
+  /// or finished; SystemLost, whatever it is that a vehicle or a distributer throws; ValueTooLarge.
   ///
   /// On the real clock instant 0 is at the first call. The calling thread keeps the time, and gets its priority and
-  /// CPUs; values that nobody could take in time are lost, which `finish` reports by an exception. What has a `safe`
+  /// CPUs; values that nobody could take in time are lost, which the verdict says. What has a `safe`
   /// gets that at the end, also if the process dies; `at_end` of a graph is for jarol run.
   void run_until(Duration end);
   /// Throws WrongInstant for what is longer than ten years from the start, too.
@@ -82,8 +89,8 @@ class Session {
   const Report& report() const;
 
   /// Gives an `in` communicator, or the channel "distributer.channel", a value: it is taken at the next instant at
-  /// which that acts, now() included. A value that is not finite is counted and not taken. Throws UnknownName,
-  /// WrongType, NotFed; RunOver after finish.
+  /// which that acts, now() included. A value that is not finite is counted and not taken, and the one that was fed
+  /// before it stays. Throws UnknownName, WrongType, NotFed; RunOver after finish.
   template <class T>
   void feed(std::string_view name, const T& value) {
     feed_value(name, type_of<T>(), &value);
@@ -115,8 +122,8 @@ class Session {
   double true_value(const std::string& field_of_distributer) const;
 
   /// Ends the run; what the graph expects of it is judged. The verdict on one that a fault or a lost system stopped,
-  /// or that has heard nothing from its vehicle over a link, is negative whatever was expected. Throws RunOver the
-  /// second time.
+  /// of which values were lost, or that has heard nothing from its vehicle over a link, is negative whatever was
+  /// expected. Throws RunOver the second time.
   RunVerdict finish();
 
  private:

@@ -5,24 +5,18 @@
 namespace jarol {
 namespace {
 
-// What an option is called that a plugin was compiled with, or lacks.
-struct Option {
-  std::int32_t PluginBuild::*value;
-  const char* if_larger;  // than that of the program
-  const char* if_smaller;
-};
-constexpr Option options[] = {
-    {&PluginBuild::address_sanitizer, "with the address sanitizer", "without the address sanitizer"},
-    {&PluginBuild::thread_sanitizer, "with the thread sanitizer", "without the thread sanitizer"},
-    {&PluginBuild::cxx11_strings, "without -D_GLIBCXX_USE_CXX11_ABI=0", "with -D_GLIBCXX_USE_CXX11_ABI=0"},
-    {&PluginBuild::debug_containers, "with -D_GLIBCXX_DEBUG", "without -D_GLIBCXX_DEBUG"},
-    {&PluginBuild::packed_structs, "with -fpack-struct", "without -fpack-struct"},
-    {&PluginBuild::short_enums, "with -fshort-enums", "without -fshort-enums"},
-    {&PluginBuild::fast_math, "with -ffast-math or a part of it, so that it computes otherwise",
-     "without -ffast-math or a part of it, so that it computes otherwise"},
-    {&PluginBuild::x87_math, "with -mfpmath=387, so that it computes otherwise",
-     "without -mfpmath=387, so that it computes otherwise"},
-};
+BuildOptions options_of(const PluginBuild& build) {
+  BuildOptions options;
+  options.cxx11_strings = build.cxx11_strings;
+  options.debug_containers = build.debug_containers;
+  options.packed_structs = build.packed_structs;
+  options.short_enums = build.short_enums;
+  options.fast_math = build.fast_math;
+  options.x87_math = build.x87_math;
+  options.address_sanitizer = build.address_sanitizer;
+  options.thread_sanitizer = build.thread_sanitizer;
+  return options;
+}
 
 // What has another size for reasons that have no name here.
 struct Layout {
@@ -48,10 +42,7 @@ std::string find_difference(const PluginBuild& plugin, const PluginBuild& progra
            std::to_string(program.form);
   const std::string_view by(plugin.compiler, strnlen(plugin.compiler, sizeof plugin.compiler));
   if (by != program.compiler) return "by " + std::string(by) + ", this program by " + program.compiler;
-  for (const Option& option : options) {
-    const std::int32_t theirs = plugin.*option.value, ours = program.*option.value;
-    if (theirs != ours) return theirs > ours ? option.if_larger : option.if_smaller;
-  }
+  if (std::string option = find_other_switch(options_of(plugin), options_of(program)); !option.empty()) return option;
   for (const Layout& layout : layouts) {
     const std::int32_t theirs = plugin.*layout.bytes, ours = program.*layout.bytes;
     if (theirs != ours)

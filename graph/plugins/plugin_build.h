@@ -5,13 +5,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "graph/build_options.h"
 #include "graph/registry.h"
-
-#if defined(__has_feature)
-#define JAROL_HAS(feature) __has_feature(feature)
-#else
-#define JAROL_HAS(feature) 0
-#endif
 
 namespace jarol {
 
@@ -26,38 +21,21 @@ struct PluginBuild {
   char compiler[64] = {};
 };
 
-namespace detail {
-struct Packed {
-  char first;
-  double second;
-};
-enum Short { only };
-}  // namespace detail
-
 /// Of the file that includes this; internal to it, as each is compiled with options of its own.
 namespace {
 consteval PluginBuild build_of_this_file() {
   PluginBuild build;
-#if defined(_GLIBCXX_USE_CXX11_ABI)
-  build.cxx11_strings = _GLIBCXX_USE_CXX11_ABI;
-#endif
-#if defined(_GLIBCXX_DEBUG)
-  build.debug_containers = 1;
-#endif
-#if defined(__FAST_MATH__) || __FINITE_MATH_ONLY__ || (defined(__GCC_IEC_559) && __GCC_IEC_559 == 0)
-  build.fast_math = 1;
-#endif
-#if defined(__SANITIZE_ADDRESS__) || JAROL_HAS(address_sanitizer)
-  build.address_sanitizer = 1;
-#endif
-#if defined(__SANITIZE_THREAD__) || JAROL_HAS(thread_sanitizer)
-  build.thread_sanitizer = 1;
-#endif
-  build.x87_math = __FLT_EVAL_METHOD__ != 0;
-  build.packed_structs = sizeof(detail::Packed) != 2 * sizeof(double);
-  build.short_enums = sizeof(detail::Short) != sizeof(int);
-  build.long_double = sizeof(long double);
-  build.wide_char = sizeof(wchar_t);
+  constexpr BuildOptions options = options_of_this_file();
+  build.cxx11_strings = options.cxx11_strings;
+  build.debug_containers = options.debug_containers;
+  build.packed_structs = options.packed_structs;
+  build.short_enums = options.short_enums;
+  build.fast_math = options.fast_math;
+  build.x87_math = options.x87_math;
+  build.address_sanitizer = options.address_sanitizer;
+  build.thread_sanitizer = options.thread_sanitizer;
+  build.long_double = options.long_double;
+  build.wide_char = options.wide_char;
   build.eigen_alignment = alignof(Eigen::Vector4d);
   build.task_class = sizeof(TaskClass);
   build.type = sizeof(Type);
@@ -80,7 +58,6 @@ consteval PluginBuild build_of_this_file() {
   return x * x - y == 0;  // with x = 1 + 2^-30, y = x * x rounded: fused, what was rounded off remains
 }
 }  // namespace
-#undef JAROL_HAS
 
 /// Why a library of such a build can't be used by one of the other; empty: it can.
 std::string find_difference(const PluginBuild& plugin, const PluginBuild& program);

@@ -25,7 +25,8 @@ distributers::Registries make_registries() {
 
 }  // namespace
 
-const distributers::Registries& built_in() {
+const distributers::Registries& built_in(const BuildOptions& program) {
+  require_built_alike(program);
   static const distributers::Registries known = make_registries();
   return known;
 }

@@ -12,9 +12,11 @@
 namespace jarol {
 
 /// Throws as Session's constructor does.
-Session open(const std::string& path, SessionOptions options = {});
+Session open(const std::string& path, SessionOptions options = {},
+             const BuildOptions& program = options_of_this_file());
 
 /// The same of a text in place of a file; paths in it are relative to `folder`.
-Session open_text(std::string text, SessionOptions options = {}, const std::string& folder = ".");
+Session open_text(std::string text, SessionOptions options = {}, const std::string& folder = ".",
+                  const BuildOptions& program = options_of_this_file());
 
 }  // namespace jarol
