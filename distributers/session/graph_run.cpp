@@ -60,6 +60,8 @@ Checkpoint GraphRun::checkpoint() {
   sinks_.catch_up();
   if (const std::string failure = sinks_.failure_of_conditions(); !failure.empty())
     throw CheckpointError("the run can't be saved, as what is expected of it is no longer looked at: " + failure);
+  if (!sinks_.lost().empty())
+    throw CheckpointError("the run can't be saved, as not all that it published could be looked at: " + sinks_.lost());
   Checkpoint made(origin_, executor_.now());
   made.save("run", executor_);
   made.save("conditions", sinks_);

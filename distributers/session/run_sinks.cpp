@@ -22,6 +22,11 @@ void RunSinks::rethrow_failure() const {
   if (recorder_) recorder_->rethrow_failure();
 }
 
+const std::string& RunSinks::lost() const {
+  static const std::string nothing;
+  return recorder_ ? recorder_->lost() : nothing;
+}
+
 std::string RunSinks::failure_of(const RecordSink& sink) const { return recorder_->failure_of(sink); }
 
 std::string RunSinks::failure_of_conditions() const {

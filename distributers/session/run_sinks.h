@@ -38,6 +38,8 @@ class RunSinks {
   void show(const RunEvent& event) {
     if (recorder_) recorder_->append_event(event);
   }
+  /// The first that was published and no sink has got, and why; empty: there is none.
+  const std::string& lost() const;
   /// Throws the first that a sink has thrown by then. After `catch_up`.
   void rethrow_failure() const;
   /// They have got all, but for those that have failed: throws what these threw.

@@ -41,6 +41,7 @@ void require_no_clock(const Loaded& loaded) {
 Session::Run::Run(const distributers::Registries& known, std::shared_ptr<const Source> source,
                   const SessionOptions& options)
     : note_(options.note ? options.note : no_notes) {
+  if (source == nullptr) throw NoSource("a session is of a graph's text; the source is null");
   const DefaultFloatingPoint arithmetic;  // of vehicles and parameters, and of threads that are started here
   if (options.workers < 1 || options.workers > max_workers)
     throw NotExecutable("a run has 1 to " + std::to_string(max_workers) + " workers, not " +
@@ -138,14 +139,17 @@ void Session::Run::run_until(Duration end) {
   start_clock();
   try {
     executor.run_until(end);
-  } catch (const std::exception& error) {
-    over_ = error.what();
-    graph_run_->sinks().catch_up();
-    graph_run_->sinks().rethrow_failure();
-    throw SystemLost(over_);
+  } catch (const std::exception& error) { over_ = error.what(); } catch (...) {
+    over_ = "something was thrown that is no exception";
   }
   graph_run_->sinks().catch_up();
   graph_run_->sinks().rethrow_failure();
+  if (!over_.empty()) throw SystemLost(over_);
+  // on the real clock it goes on
+  if (const std::string& lost = graph_run_->sinks().lost(); !clock_ && !lost.empty()) {
+    over_ = lost;
+    throw ValueTooLarge(over_);
+  }
   if (executor.report().stopped) over_ = to_text(executor.report().faults.back());
 }
 
@@ -203,11 +207,15 @@ RunVerdict Session::Run::finish() {
   finished_ = true;
   const std::string stopped = std::exchange(over_, "it was finished");
   this->end();
-  graph_run_->close_sinks();
+  std::string unseen;
+  try {
+    graph_run_->close_sinks();
+  } catch (const std::exception& error) { unseen = error.what(); }
   RunEnd end;
   end.ending = Ending::over();
   RunVerdict verdict = graph_run_->judge(asked_, end);
   verdict.stopped = stopped;
+  verdict.unseen = unseen;
   if (stopped.empty() && !verdict.unheard.empty())
     verdict.stopped = "nothing came from the vehicle of '" + verdict.unheard.front() + "'";
   return verdict;

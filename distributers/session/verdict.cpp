@@ -18,7 +18,7 @@ bool is_single(const Task& task, std::uint64_t left_out, std::int64_t due) {
 }  // namespace
 
 bool RunVerdict::is_negative() const {
-  return !stopped.empty() || !mishaps.empty() || !left_out.empty() || !not_at_rest.empty() ||
+  return !stopped.empty() || !unseen.empty() || !mishaps.empty() || !left_out.empty() || !not_at_rest.empty() ||
          std::any_of(expectations.begin(), expectations.end(),
                      [](const Verdict& v) { return v.outcome == Verdict::Outcome::fails; });
 }

@@ -21,8 +21,10 @@ struct RunVerdict {
   };
   std::vector<VehicleMishap> mishaps;
   std::string stopped{};  // why a session did not come to its end: a fault, a lost system, no vehicle; empty: it did
-  std::string not_at_rest{};           // why its vehicle did not come to rest at its end; empty: it did, or was not to
-  std::vector<std::string> left_out;   // per task with more faults than the graph allows: a line
+  std::string not_at_rest{};          // why its vehicle did not come to rest at its end; empty: it did, or was not to
+  std::vector<std::string> left_out;  // per task with more faults than the graph allows: a line
+  std::string unseen{};  // why a session did not get all that was published, so that what was lost is neither judged
+                         // nor kept; empty: it did
   std::vector<std::string> unheard{};  // distributers on links whose vehicle sent nothing that counts, in the whole run
 
   bool is_negative() const;

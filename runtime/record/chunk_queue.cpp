@@ -32,19 +32,24 @@ void ChunkQueue::push(ChunkPointer chunk) {
 
 void ChunkQueue::wait_and_push(ChunkPointer chunk) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return waiting_.size() < room || failure_ || ended_; });
+  changed_.wait(lock, [&, bytes = chunk->records().size()] { return has_room_for(bytes) || failure_ || ended_; });
   put(std::move(chunk));
 }
 
 bool ChunkQueue::push_if_room(ChunkPointer& chunk) {
   const std::lock_guard lock(mutex_);
-  if (waiting_.size() >= room) return false;
+  if (!has_room_for(chunk->records().size())) return false;
   put(std::move(chunk));
   return true;
 }
 
+bool ChunkQueue::has_room_for(std::size_t bytes) const {
+  return waiting_.empty() || (waiting_.size() < room && waiting_bytes_ + bytes <= max_bytes);
+}
+
 void ChunkQueue::put(ChunkPointer chunk) {
   if (failure_ || ended_) return;  // nothing is written any more
+  waiting_bytes_ += chunk->records().size();
   waiting_.push_back(std::move(chunk));
   pushed_.fetch_add(1, std::memory_order_relaxed);
   changed_.notify_all();
@@ -73,13 +78,16 @@ void ChunkQueue::run() {
     try {
       write_(chunk);
     } catch (...) { failure = std::current_exception(); }
+    const std::size_t bytes = chunk.records().size();
     chunk.clear();
     lock.lock();
-    spare_.push_back(std::move(waiting_.front()));
+    waiting_bytes_ -= bytes;
+    if (bytes <= max_bytes / room) spare_.push_back(std::move(waiting_.front()));
     waiting_.pop_front();
     if (failure) {
       failure_ = failure;
       waiting_.clear();
+      waiting_bytes_ = 0;
     }
     changed_.notify_all();
   }

@@ -34,12 +34,13 @@ class ChunkQueue {
 
   /// However many wait to be written.
   void push(ChunkPointer chunk);
-  /// Waits until fewer than `room` wait.
+  /// Waits until fewer than `room` wait, and of large ones no more than `max_bytes`, or none.
   void wait_and_push(ChunkPointer chunk);
   /// False: so many wait already, and the chunk stays the caller's.
   bool push_if_room(ChunkPointer& chunk);
   /// Chunks that may wait, but for those that are pushed in any case.
   static constexpr std::size_t room = 16;
+  static constexpr std::size_t max_bytes = std::size_t{64} << 20;
 
   /// Chunks that were pushed so far, by all.
   std::uint64_t pushed() const { return pushed_.load(std::memory_order_relaxed); }
@@ -50,11 +51,13 @@ class ChunkQueue {
  private:
   void run();
   void put(ChunkPointer chunk);
+  bool has_room_for(std::size_t bytes) const;
 
   std::function<void(const mcap::Chunk&)> write_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<ChunkPointer> waiting_;
+  std::size_t waiting_bytes_ = 0;
   std::vector<ChunkPointer> spare_;
   std::atomic<std::uint64_t> pushed_{0};
   bool ended_ = false;

@@ -46,12 +46,7 @@ Recorder::~Recorder() {
 void Recorder::expect(const std::vector<Output>& outputs) {
   outputs_ = outputs;
   deep_values_.clear();
-  for (const Output& output : outputs) {
-    if (output.type->size > max_bytes)
-      throw std::length_error("output '" + output.name + "' has " + std::to_string(output.type->size) +
-                              " bytes; values of up to " + std::to_string(max_bytes) + " can be recorded");
-    deep_values_.push_back(output.type->is_deep() ? Value(*output.type) : Value());
-  }
+  for (const Output& output : outputs) deep_values_.push_back(output.type->is_deep() ? Value(*output.type) : Value());
   wanted_.clear();
   for (std::uint32_t i = 0; i < outputs.size(); ++i)
     wanted_.push_back(
@@ -61,18 +56,38 @@ void Recorder::expect(const std::vector<Output>& outputs) {
 void Recorder::append_deep(Duration instant, std::uint32_t output, const void* value) {
   const Type& type = *outputs_[output].type;
   const std::size_t size = packed_size(type, value);
-  if (size > max_bytes) {
-    if (lost_.empty())
-      lost_ = "output '" + outputs_[output].name + "' had " + std::to_string(size) + " bytes at " +
-              std::to_string(instant.count()) + "ns; values of up to " + std::to_string(max_bytes) + " can be recorded";
-    return;
-  }
   const std::size_t padded = (size + 7U) & ~std::size_t{7};
+  if (sizeof(RecordHeader) + padded > chunk_bytes) return append_large(instant, output, value, size);
   if (chunk_bytes - used_ < sizeof(RecordHeader) + padded) next_chunk();
   const RecordHeader header{instant, output, static_cast<std::uint32_t>(size)};
   std::memcpy(now_ + used_, &header, sizeof header);
   pack(type, value, now_ + used_ + sizeof header);
   used_ += sizeof header + padded;
+}
+
+void Recorder::append_large(Duration instant, std::uint32_t output, const void* value, std::size_t size) {
+  if (size > max_bytes)
+    return lose(instant, output, size, "values of up to " + std::to_string(max_bytes) + " can be recorded");
+  if (used_ > 0) next_chunk();
+  if (is_cut_off_) return;
+  const std::size_t bytes = sizeof(RecordHeader) + ((size + 7U) & ~std::size_t{7});
+  std::byte* const room = large_.room(written_.load(std::memory_order_relaxed) % chunks, bytes, [this] {
+    if (waits_) catch_up();
+    return waits_;
+  });
+  if (room == nullptr) return lose(instant, output, size, "there was no memory to record it");
+  const RecordHeader header{instant, output, static_cast<std::uint32_t>(size)};
+  std::memcpy(room, &header, sizeof header);
+  pack(*outputs_[output].type, value, room + sizeof header);
+  now_ = room;
+  used_ = bytes;
+  next_chunk();
+}
+
+void Recorder::lose(Duration instant, std::uint32_t output, std::size_t size, const std::string& why) {
+  if (!lost_.empty()) return;
+  lost_ = "output '" + outputs_[output].name + "' had " + std::to_string(size) + " bytes at " +
+          std::to_string(instant.count()) + "ns; " + why;
 }
 
 void Recorder::catch_up() {
@@ -182,7 +197,8 @@ void Recorder::run() {
       continue;
     }
     pause = shortest_sleep;
-    drain(memory_.get() + (read % chunks) * chunk_bytes, bytes_[read % chunks]);
+    const std::size_t chunk = read % chunks, bytes = bytes_[chunk];
+    drain(bytes > chunk_bytes ? large_.at(chunk) : memory_.get() + chunk * chunk_bytes, bytes);
     read_.store(++read, std::memory_order_release);
     read_.notify_one();
   }

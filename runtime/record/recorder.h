@@ -19,6 +19,7 @@
 #include "runtime/machine/copy_fresh.h"
 #include "runtime/machine/prefetch.h"
 #include "runtime/plan/output.h"
+#include "runtime/record/large_values.h"
 #include "runtime/record/sink.h"
 
 namespace jarol {
@@ -35,15 +36,16 @@ class Recorder {
   /// The sinks outlive the recorder.
   explicit Recorder(std::vector<RecordSink*> sinks, Duration hand_on_period = std::chrono::seconds(1));
 
-  /// What will be recorded, before the first of it. Throws std::length_error for flat values beyond max_bytes.
+  /// What will be recorded, before the first of it.
   void expect(const std::vector<Output>& outputs);
 
   /// Sinks get values in order of instants though they may be appended out of order, up to that long after a later one.
   /// Before the first value.
   void put_in_order(Duration longest) { disorder_ = longest; }
 
-  /// Values up to this size can be recorded.
-  static constexpr std::size_t max_bytes = (std::size_t{256} << 10) - sizeof(RecordHeader);
+  /// Values up to this size can be recorded, a mebibyte less than a chunk of a recording may have. A larger one is
+  /// lost, and `lost` says so.
+  static constexpr std::size_t max_bytes = (std::size_t{1} << 30) - (std::size_t{1} << 20);
 
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -53,7 +55,10 @@ class Recorder {
   /// one.
   void append(Duration instant, std::uint32_t output, const void* value, std::uint32_t size) {
     const std::size_t padded = (size + 7U) & ~std::size_t{7};
-    if (chunk_bytes - used_ < sizeof(RecordHeader) + padded) next_chunk();
+    if (chunk_bytes - used_ < sizeof(RecordHeader) + padded) {
+      if (sizeof(RecordHeader) + padded > chunk_bytes) return append_large(instant, output, value, size);
+      next_chunk();
+    }
     prefetch_for_write(now_, chunk_bytes, used_);
     const RecordHeader header{instant, output, size};
     std::memcpy(now_ + used_, &header, sizeof header);
@@ -64,7 +69,7 @@ class Recorder {
     used_ += sizeof header + padded;
   }
 
-  /// The same for a deep value; one beyond max_bytes is lost, which `close` tells.
+  /// The same for a deep value.
   void append_deep(Duration instant, std::uint32_t output, const void* value);
 
   /// Some sink wants publications of that output.
@@ -85,8 +90,8 @@ class Recorder {
   void catch_up();
   /// Throws the first that a sink has thrown by then. After `catch_up`.
   void rethrow_failure() const;
-  /// Something was not recorded, which `close` tells.
-  bool has_lost() const { return !lost_.empty(); }
+  /// The first that was not recorded, and why, which `close` throws; empty: all was.
+  const std::string& lost() const { return lost_; }
 
   /// Hands on all that was appended, ends the thread and lets the sinks finish; throws what a sink threw, or, of
   /// several, std::runtime_error with all of it. One that has thrown gets nothing more and does not finish; the others
@@ -98,10 +103,12 @@ class Recorder {
   std::string why_not_all(const RecordSink& sink) const;
 
  private:
-  static constexpr std::size_t chunk_bytes = max_bytes + sizeof(RecordHeader);
+  static constexpr std::size_t chunk_bytes = std::size_t{256} << 10;
   static constexpr std::size_t chunks = 8;
   static constexpr std::uint32_t event_output = 0xffffffff;  // stands for an event in place of an output
 
+  [[gnu::cold]] void append_large(Duration instant, std::uint32_t output, const void* value, std::size_t size);
+  void lose(Duration instant, std::uint32_t output, std::size_t size, const std::string& why);
   void next_chunk();
   [[gnu::cold]] void cut_off();
   void publish_chunk();
@@ -124,7 +131,7 @@ class Recorder {
   std::vector<Output> outputs_;
   std::vector<std::uint8_t> wanted_;  // per output
   std::vector<Value> deep_values_;    // per output: what the sinks see, empty for flat ones
-  std::string lost_;                  // the first value that was lost, and why
+  std::string lost_;                  // the first value, and why
   struct Held {
     RecordHeader header;
     std::vector<std::byte> packed;
@@ -133,7 +140,8 @@ class Recorder {
   std::multimap<Duration, Held> held_;  // by instant, then as they came
   Duration newest_{};                   // instant of a value held
   std::unique_ptr<std::byte[]> memory_;
-  std::size_t bytes_[chunks] = {};  // filled part of each chunk
+  std::size_t bytes_[chunks] = {};  // filled part of each chunk; more than it has: a large value in its place
+  LargeValues<chunks> large_;
   std::byte* now_ = nullptr;
   std::size_t used_ = 0;
   bool waits_ = true;

@@ -40,7 +40,7 @@ void InputLog::rest(Duration begun) { append(rests, RestBegin{begun.count()}, be
 
 void InputLog::checkpoint(Duration instant, Duration settled, std::uint64_t digest, bool exact) {
   checkpoint_due_ = instant + std::chrono::seconds(1);
-  if (to_->has_lost()) return;
+  if (!to_->lost().empty()) return;
   append(digests, RunningDigest{settled.count(), digest, exact ? 1U : 0U}, instant);
   to_->hand_on();
 }

@@ -184,7 +184,7 @@ int replay(const ReplayOptions& options) {
       unwritten = "trace and picture are not written, as the replay has not ended";
     if (!run_end.hangs) sinks.close();
   } catch (const std::exception& error) { unwritten = error.what(); }
-  const bool compared_all = run_end.hangs || !values.has_any() || sinks.failure_of(values).empty();
+  const bool compared_all = run_end.hangs || !values.has_any() || sinks.why_not_all(values).empty();
   if (!compared_all && comparison.evidence == Evidence::same) comparison.evidence = Evidence::unknown;
   const Differences& differences = values.differences();
   if (differences.first() && !comparison.interrupted && compared_all) {

@@ -106,7 +106,7 @@ void WhatIfs::add_to(SavedRun& run) {
 void WhatIfs::run(RunSinks& sinks, RunFiles& files) {
   if (what_ifs_.empty()) return;
   sinks.catch_up();
-  if (const std::string failure = sinks.failure_of(*kept_); !failure.empty())
+  if (const std::string failure = sinks.why_not_all(*kept_); !failure.empty())
     throw std::runtime_error("what-ifs are not run, as the run is not kept to compare them with: " + failure);
   for (std::size_t i = 0; i < what_ifs_.size(); ++i) {
     if (!what_ifs_[i].past) continue;  // which was said
