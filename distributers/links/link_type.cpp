@@ -1,6 +1,7 @@
 #include "distributers/links/link_type.h"
 
 #include <filesystem>
+#include <stdexcept>
 
 #include "distributers/interfaces/any_distributer.h"
 
@@ -9,7 +10,11 @@ namespace jarol::distributers {
 std::string LinkRequest::subject() const { return "link of distributer '" + whose().name + "'"; }
 
 std::unique_ptr<AnyDistributer> LinkRequest::make_distributer() const {
-  return whose().distributer_class->make(whose().parameters.data());
+  try {
+    return whose().distributer_class->make(whose().parameters.data());
+  } catch (const std::exception& error) { throw std::invalid_argument(error.what()); } catch (...) {
+    throw std::invalid_argument("its constructor throws what is no std::exception");
+  }
 }
 
 std::shared_ptr<const Source> LinkRequest::read_beside(const Located<std::string>& path, Problems& problems) const {

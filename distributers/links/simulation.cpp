@@ -26,14 +26,38 @@ std::unique_ptr<ExternalSystem> make_simulation_channels(const SimulationSpec& s
     bind_fields(spec.parameters->value, *file->vehicle->parameters, file->parameters.data(), name, "parameter",
                 problems);
   if (problems.size() > before) return nullptr;
+  std::unique_ptr<AnyDistributer> distributer;
+  try {
+    distributer = request.make_distributer();
+  } catch (const std::invalid_argument& error) {
+    problems.add(request.yaml().where, "distributer '" + request.whose().name + "': " + error.what());
+    return nullptr;
+  }
   try {
     auto made = file->vehicle->make(file->parameters.data(), request.seed);
     for (const Problem& problem : off_grid(request.graph, request.distributer, made->grid()))
       problems.add(problem.where, problem.text);
-    return std::make_unique<SimulatedSystem>(std::move(made), request.make_distributer());
+    return std::make_unique<SimulatedSystem>(std::move(made), std::move(distributer));
   } catch (const std::exception& error) {
     problems.add(spec.vehicle->where, name + " can't be made: " + error.what());
     return nullptr;
+  }
+}
+
+// What it throws that is no word of the archive's becomes one.
+template <class Part>
+void serialize_part(const std::string& whose, Part& part, Archive& archive) {
+  const auto refuse = [&](const std::string& error) {
+    const std::string what = whose + " serialize(Archive&) throws: " + error;
+    if (archive.restores()) throw ArchiveError("can't be restored, as " + what);
+    throw NotSaveable(what);
+  };
+  try {
+    part.serialize(archive);
+  } catch (const NotSaveable&) { throw; } catch (const ArchiveError&) {
+    throw;
+  } catch (const std::exception& error) { refuse(error.what()); } catch (...) {
+    refuse("something that is no exception");
   }
 }
 
@@ -81,16 +105,8 @@ void SimulatedSystem::hand_over(std::size_t channel, const void* value) {
 void SimulatedSystem::serialize(Archive& archive) {
   archive(at_, sensed_);
   archive.require(at_ >= Duration{} && at_ <= longest_duration, "has a vehicle at no time of a run");
-  try {
-    vehicle_->serialize(archive);
-  } catch (const NotSaveable&) { throw; } catch (const ArchiveError&) {
-    throw;
-  } catch (const std::exception& error) {
-    const std::string what = std::string("its vehicle's serialize(Archive&) throws: ") + error.what();
-    if (archive.restores()) throw ArchiveError("can't be restored, as " + what);
-    throw NotSaveable(what);
-  }
-  distributer_->serialize(archive);
+  serialize_part("its vehicle's", *vehicle_, archive);
+  serialize_part("its", *distributer_, archive);
 }
 
 }  // namespace jarol::distributers

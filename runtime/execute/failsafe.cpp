@@ -63,7 +63,9 @@ void Failsafe::hand_over_at_end(std::span<const std::unique_ptr<ExternalSystem>>
       to.hand_over(out.channel, out.safe->data());
       to.flush();
       return "";
-    } catch (const std::exception& error) { return error.what(); }
+    } catch (const std::exception& error) { return error.what(); } catch (...) {
+      return "something was thrown that is no exception";
+    }
   });
 }
 
