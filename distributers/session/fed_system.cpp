@@ -10,6 +10,10 @@ FedSystem::FedSystem(const DistributerClass& distributer) {
 
 void FedSystem::feed(std::size_t channel, const void* value) {
   Fed& fed = fed_[channel];
+  if (!fed.value.type()->finite(value)) {
+    ++non_finite_;
+    return;
+  }
   copy_value(*fed.value.type(), fed.value.data(), value);
   fed.is_new = true;
 }
@@ -22,6 +26,7 @@ bool FedSystem::take(std::size_t channel, void* value) {
 }
 
 void FedSystem::serialize(Archive& archive) {
+  archive(non_finite_);
   for (Fed& fed : fed_) {
     archive(fed.is_new);
     archive.value(*fed.value.type(), fed.value.data());

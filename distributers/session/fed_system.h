@@ -13,13 +13,15 @@ class FedSystem : public ExternalSystem {
  public:
   explicit FedSystem(const DistributerClass& distributer);
 
-  /// The newest value of an `in` channel, until its communicator takes it.
+  /// The newest value of an `in` channel, until its communicator takes it. One that is not finite is counted, and the
+  /// one before it stays.
   void feed(std::size_t channel, const void* value);
 
   void reach(Duration) override {}
   bool take(std::size_t channel, void* value) override;
   void hand_over(std::size_t, const void*) override {}
   void serialize(Archive& archive) override;
+  std::uint64_t non_finite_inputs() const override { return non_finite_; }
 
  private:
   struct Fed {
@@ -27,6 +29,7 @@ class FedSystem : public ExternalSystem {
     bool is_new = false;
   };
   std::vector<Fed> fed_;  // per channel
+  std::uint64_t non_finite_ = 0;
 };
 
 }  // namespace jarol
