@@ -50,18 +50,39 @@ double speed_along(const In& in, double chi) {
   return std::max(in.motion.u + in.stream.north * std::cos(chi) + in.stream.east * std::sin(chi), slowest);
 }
 
-double follow_line(const Param& p, const In& in, double dt, State& state, Progress& progress) {
+// The line from where it began, and the vehicle beside it.
+struct Line {
+  double chi = 0;          // its course
+  double left = 0;         // m along it, until its end
+  double cross_track = 0;  // m to starboard
+};
+
+Line measure_line(const In& in, const State& state) {
   const double dx = in.leg.north - state.begin_x, dy = in.leg.east - state.begin_y, length = std::hypot(dx, dy);
-  const double chi_p = length > 0 ? std::atan2(dy, dx) : in.motion.psi;
+  const double chi = length > 0 ? std::atan2(dy, dx) : in.motion.psi;
   const double x = in.motion.x - state.begin_x, y = in.motion.y - state.begin_y;
-  const double left = length - (x * std::cos(chi_p) + y * std::sin(chi_p));
-  progress.cross_track = y * std::cos(chi_p) - x * std::sin(chi_p);
+  return {chi, length - (x * std::cos(chi) + y * std::sin(chi)), y * std::cos(chi) - x * std::sin(chi)};
+}
+
+double follow_line(const Param& p, const In& in, double dt, State& state, Progress& progress) {
+  const double radius = in.motion.u / p.turn_rate, miss = std::max(p.miss, 2 * radius);
+  Line line = measure_line(in, state);
+  // past its end, but not by it: there anew, from here
+  if (line.left <= 0 && std::hypot(line.left, line.cross_track) > miss) {
+    state.begin_x = in.motion.x;
+    state.begin_y = in.motion.y;
+    state.sigma = 0;
+    state.returns = true;
+    line = measure_line(in, state);
+  }
+  progress.cross_track = line.cross_track;
   progress.distance = std::hypot(in.leg.north - in.motion.x, in.leg.east - in.motion.y);
-  const double radius = in.motion.u / p.turn_rate;
-  const double lead = in.leg.turn == 0 ? 0 : radius * std::tan(std::min(std::abs(in.leg.turn), sharpest) / 2);
-  progress.near = left <= std::max(lead, 0.0) || progress.distance < p.reach;
-  progress.left = std::max(left, 0.0) / speed_along(in, chi_p);
-  return chi_p - integrate(p, dt, progress.cross_track, state);
+  const bool turns = in.leg.turn != 0 && !state.returns;
+  const double lead = turns ? radius * std::tan(std::min(std::abs(in.leg.turn), sharpest) / 2) : 0;
+  progress.near =
+      (line.left <= std::max(lead, 0.0) && std::abs(line.cross_track) <= miss) || progress.distance < p.reach;
+  progress.left = std::max(line.left, 0.0) / speed_along(in, line.chi);
+  return line.chi - integrate(p, dt, progress.cross_track, state);
 }
 
 double follow_circle(const Param& p, const In& in, double dt, State& state, Progress& progress) {

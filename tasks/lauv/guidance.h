@@ -22,9 +22,11 @@ namespace jarol::tasks {
 /// and the heading is that course less the drift, asin(stream across chi / speed through the water). On a circle it is
 /// ahead by what the heading lags, turn rate times heading_time, and by the slip of the hull, -atan(v / u). A line
 /// begins where the last one ended if the vehicle is near there, else where the vehicle is. It ends before its end
-/// where the course turns: by radius tan(turn / 2), of the circle on which the vehicle turns. A station is driven to at
-/// its depth, and where the vehicle has been there back to at the surface, on which it floats, within 2.5 radii, as
-/// DUNE does.
+/// where the course turns: by radius tan(turn / 2), of the circle on which the vehicle turns. Who comes past its end,
+/// by what navigation says, but farther off than `miss` and twice that radius, as after a leap of its place or out of a
+/// current, steers for it anew: the line begins where the vehicle is. Depth counts nothing there, as in DUNE. A station
+/// is driven to at its depth, and where the vehicle has been there back to at the surface, on which it floats,
+/// within 2.5 radii, as DUNE does.
 struct LauvGuidance {
   static constexpr std::string_view summary = "follows the legs of a plan: lines, circles, stations";
   struct Param {
@@ -34,6 +36,7 @@ struct LauvGuidance {
     double heading_time = 1.25;
     double reach = 2;
     double level = 0.3;
+    double miss = 15;
     static constexpr auto fields() {
       using P = Param;
       return describe(field<&P::lookahead>("m", "along the path, of the point that it steers for"),
@@ -41,7 +44,8 @@ struct LauvGuidance {
                       field<&P::turn_rate>("rad/s", "at which the vehicle turns from line to line"),
                       field<&P::heading_time>("s", "by which the heading is behind its command"),
                       field<&P::reach>("m", "from a place, where it is reached"),
-                      field<&P::level>("m", "from a depth, where it is reached"));
+                      field<&P::level>("m", "from a depth, where it is reached"),
+                      field<&P::miss>("m", "past the end of a line by so much, to any side, it is not reached"));
     }
   };
   struct In {
@@ -60,6 +64,7 @@ struct LauvGuidance {
     bool has_end = false;
     double end_x = 0, end_y = 0;
     double begin_x = 0, begin_y = 0;
+    bool returns = false;
     double sigma = 0;
     double since = 0;
     bool arrived = false, drifted = false, done = false;
@@ -71,6 +76,7 @@ struct LauvGuidance {
       return describe(field<&S::number>("", "of the leg"), field<&S::has_end>("", "the last leg was a line"),
                       field<&S::end_x>("m", "of the last line"), field<&S::end_y>("m", "of the last line"),
                       field<&S::begin_x>("m", "of the line"), field<&S::begin_y>("m", "of the line"),
+                      field<&S::returns>("", "to the end of a line that it has missed"),
                       field<&S::sigma>("m", "integral of the cross-track error"), field<&S::since>("s", "it is there"),
                       field<&S::arrived>(), field<&S::drifted>("", "away from its station"), field<&S::done>(),
                       field<&S::fixes>("", "of GPS when the leg began"),
