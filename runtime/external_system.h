@@ -83,6 +83,11 @@ class ExternalSystem {
   /// Sends what was handed over, where it would wait for the next instant. Throws std::runtime_error if it can't.
   virtual void flush() {}
 
+  /// From the next instant on the vehicle is brought to rest, as `at_end` of the graph states; before `reach`, once.
+  virtual void ending() {}
+  /// Then: its operator has demanded a stop, and what it commands counts in place of `at_end`. Any thread.
+  virtual bool overrides_end() const { return false; }
+
   /// What changes while a run goes on, on the virtual clock, between two instants. Throws NotSaveable.
   virtual void serialize(Archive&) { throw NotSaveable("its link can't be saved"); }
 

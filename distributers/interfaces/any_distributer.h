@@ -32,6 +32,11 @@ class AnyDistributer : public messages::Receiver {
   /// After `reach`, for what goes to all who may look for this system, not to the peer alone.
   virtual void announce(Duration instant, messages::Receiver& all) = 0;
 
+  /// From the next instant on the vehicle is brought to rest, as the graph states; before `reach`, once.
+  virtual void ending() = 0;
+  /// Then: its operator has demanded a stop, and what it commands counts in place of that. Any thread.
+  virtual bool overrides_end() const = 0;
+
   /// The run is over. Throws std::runtime_error if something can't be kept for the next one.
   virtual void finish() = 0;
 

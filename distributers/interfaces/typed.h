@@ -47,6 +47,13 @@ class Typed final : public AnyDistributer {
   void announce([[maybe_unused]] Duration instant, [[maybe_unused]] messages::Receiver& all) override {
     if constexpr (detail::has_announce<D>) distributer_.announce(instant, all);
   }
+  void ending() override {
+    if constexpr (detail::has_ending<D>) distributer_.ending();
+  }
+  bool overrides_end() const override {
+    if constexpr (detail::has_overrides_end<D>) return distributer_.overrides_end();
+    return false;
+  }
   void finish() override {
     if constexpr (detail::has_finish<D>) distributer_.finish();
   }

@@ -86,6 +86,8 @@ constexpr bool same_member() {
 JAROL_HOOK(peer_changed, "()", d.peer_changed())
 JAROL_HOOK(any_message, "()", d.any_message())
 JAROL_HOOK(take_over, "()", d.take_over())
+JAROL_HOOK(ending, "()", d.ending())
+JAROL_HOOK(overrides_end, "() const", static_cast<bool>(std::as_const(d).overrides_end()))
 JAROL_HOOK(finish, "()", d.finish())
 JAROL_HOOK(non_finite_inputs, "()", static_cast<std::uint64_t>(d.non_finite_inputs()))
 JAROL_HOOK(listen_at, "(const std::string& address)", d.listen_at(std::declval<const std::string&>()))

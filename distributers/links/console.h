@@ -71,6 +71,8 @@ class ConsoleSystem : public ExternalSystem {
   void finish() override { distributer_->finish(); }
   std::optional<LinkReport> link_report() const override;
   std::uint64_t non_finite_inputs() const override { return distributer_->non_finite_inputs(); }
+  void ending() override { distributer_->ending(); }
+  bool overrides_end() const override { return distributer_->overrides_end(); }
   void reach(Duration instant) override;
   bool take(std::size_t channel, void* value) override { return distributer_->take(channel, value); }
   void hand_over(std::size_t channel, const void* value) override { distributer_->hand_over(channel, value, unread_); }

@@ -21,6 +21,8 @@ class LinkedSystem : public ExternalSystem {
   bool sends() const override { return link_->sends(); }
   std::optional<LinkReport> link_report() const override { return link_->report(); }
   std::uint64_t non_finite_inputs() const override { return distributer_->non_finite_inputs(); }
+  void ending() override { distributer_->ending(); }
+  bool overrides_end() const override { return distributer_->overrides_end(); }
 
   void reach(Duration instant) override;
   bool take(std::size_t channel, void* value) override { return distributer_->take(channel, value); }

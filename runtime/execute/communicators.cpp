@@ -4,6 +4,7 @@
 #include <cassert>
 #include <numeric>
 #include <thread>
+#include <utility>
 
 #include "runtime/execute/expectations.h"
 
@@ -80,6 +81,8 @@ ExternalSystem& Communicators::call(std::size_t distributer) {
 
 void Communicators::reach(Duration instant) {
   const MemoryScope outside(nullptr);
+  if (resting() && !std::exchange(ending_known_, true))
+    for (std::size_t i = 0; i < channels_.size(); ++i) call(i).ending();
   for (std::size_t i = 0; i < channels_.size(); ++i) call(i).reach(instant);
   for (WatchedVehicle& vehicle : watched_) {
     call(vehicle.distributer).copy_true_values(vehicle.values.data());

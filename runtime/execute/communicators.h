@@ -111,7 +111,7 @@ class Communicators {
   std::unique_ptr<Rest> rest_;            // null: the run can't be brought to rest
   std::atomic<bool> resting_{false};
   Duration rest_begun_{};
-  bool rest_reached_ = false;
+  bool rest_reached_ = false, ending_known_ = false;  // the latter: to the external systems
 };
 
 }  // namespace jarol

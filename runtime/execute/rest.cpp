@@ -16,6 +16,7 @@ Rest::Rest(RunState& state, const std::vector<std::unique_ptr<ExternalSystem>>& 
   std::vector<Ins> all(channels.size());
   for (std::size_t i = 0; i < graph.communicators.size(); ++i) {
     const Communicator& c = graph.communicators[i];
+    systems_.push_back(c.distributer ? channels[*c.distributer].get() : nullptr);
     if (c.direction != Direction::in || !c.distributer ||
         !graph.distributers[*c.distributer].distributer_class->is_vehicle)
       continue;
@@ -30,6 +31,8 @@ Rest::Rest(RunState& state, const std::vector<std::unique_ptr<ExternalSystem>>& 
 bool Rest::command(std::size_t communicator, void* value) const {
   const EndCommand* const command = commands_[communicator];
   if (command == nullptr) return false;
+  if (const ExternalSystem* const system = systems_[communicator]; system != nullptr && system->overrides_end())
+    return false;
   for (const Leaf& leaf : command->stated)
     std::memcpy(static_cast<std::byte*>(value) + leaf.offset,
                 static_cast<const std::byte*>(command->value.data()) + leaf.offset, leaf.type->size);

@@ -29,7 +29,7 @@ class Rest {
   Duration longest() const { return at_end_.longest; }
   /// Nothing more is taken from that distributer: it plays a mission, which is over.
   bool is_mission(std::size_t distributer) const { return missions_[distributer]; }
-  /// Puts what is commanded into the communicator's value; false: nothing of it is.
+  /// Puts what is commanded into the communicator's value; false: nothing of it is, or its operator commands.
   bool command(std::size_t communicator, void* value) const;
   /// Before the first instant at which it commands, or again later, which changes nothing.
   void begin();
@@ -50,8 +50,9 @@ class Rest {
     std::vector<std::size_t> with_timeout, others;
   };
   std::vector<Ins> vehicles_;
-  std::vector<bool> missions_;               // per distributer
-  std::vector<const EndCommand*> commands_;  // per communicator, null where nothing is commanded
+  std::vector<bool> missions_;                  // per distributer
+  std::vector<const EndCommand*> commands_;     // per communicator, null where nothing is commanded
+  std::vector<const ExternalSystem*> systems_;  // per communicator, null where it has none
   std::vector<double> signals_;
 };
 

@@ -20,6 +20,7 @@ JarolCore::JarolCore(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSystem>
       period_(choose_period()),
       failsafe_(graph_) {
   for (std::size_t i = 0; i < channels_.size(); ++i) channel_mutexes_.push_back(std::make_unique<std::mutex>());
+  ending_known_.resize(channels_.size());
   threads_report_.execution.resize(graph_.tasks.size());
   gather();
   if (run_.may_rest) rest_ = std::make_unique<Rest>(run_.state, channels_);

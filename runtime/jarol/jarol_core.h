@@ -151,6 +151,7 @@ class JarolCore {
   const Graph& graph_;
   std::vector<std::unique_ptr<ExternalSystem>> channels_;
   std::vector<std::unique_ptr<std::mutex>> channel_mutexes_;  // sensor and actuator thread share a vehicle's
+  std::vector<char> ending_known_;                            // per channel, guarded likewise
   Duration period_{};
   std::vector<std::unique_ptr<Watched>> watched_;
   std::vector<Carried> ins_, outs_;

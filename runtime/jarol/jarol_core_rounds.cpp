@@ -1,5 +1,6 @@
 // What the threads of the core do in each round: sense, compute, act.
 #include <algorithm>
+#include <utility>
 
 #include "runtime/jarol/jarol_core.h"
 #include "runtime/machine/real_clock.h"
@@ -53,6 +54,8 @@ void JarolCore::sense(bool terminal, std::int64_t round) {
     if (graph_.distributers[i].distributer_class->is_vehicle == terminal) continue;
     const std::lock_guard lock(*channel_mutexes_[i]);
     if (closed_.load(std::memory_order_relaxed)) return;
+    const std::int64_t rest_from = rest_from_.load(std::memory_order_acquire);
+    if (rest_from >= 0 && round >= rest_from && !std::exchange(ending_known_[i], char{1})) channels_[i]->ending();
     channels_[i]->reach(now);
     for (const auto& vehicle : watched_) {
       if (vehicle->distributer != i) continue;

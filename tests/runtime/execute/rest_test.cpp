@@ -53,8 +53,11 @@ class Pilot : public ExternalSystem {
   }
   void hand_over(std::size_t, const void*) override {}
   std::optional<Duration> end() const override { return end_; }
+  void ending() override { ++endings; }
+  bool overrides_end() const override { return demands_stop && endings > 0; }
 
-  std::atomic<int> taken{0};
+  std::atomic<int> taken{0}, endings{0};
+  bool demands_stop = false;
 
  private:
   std::optional<Duration> end_;
@@ -191,6 +194,32 @@ TEST_SUITE("runtime/execute/rest") {
       // as long as it may take, for it is never so
       CHECK(!executor.rest()->reached);
       CHECK(executor.rest()->ended == 200ms);
+    }
+  }
+
+  TEST_CASE("an operator learns of it once; one that demands a stop commands in its place, in either way of running") {
+    for (const bool stops : {false, true}) {
+      CAPTURE(stops);
+      const Graph graph = graph_of_flight("{command: {wish: {height: 0}}, until: climb.height < -1, longest: 100ms}");
+      World world;
+      Pilot& pilot = *world.pilot;
+      pilot.demands_stop = stops;
+      RealClock clock(graph.tasks.size());
+      Executor executor(graph, std::move(world.channels), {.clock = &clock});
+      clock.start();
+      executor.cover(100ms);
+      CHECK(pilot.endings == 0);
+      executor.begin_rest();
+      executor.cover_rest();
+      CHECK(pilot.endings == 1);
+      CHECK(height_of(executor) == (stops ? 5 : 0));
+      World other;
+      Pilot& on_threads = *other.pilot;
+      on_threads.demands_stop = stops;
+      JarolCore core(graph, std::move(other.channels));
+      core.run_for(100ms);
+      CHECK(on_threads.endings == 1);
+      CHECK(static_cast<const Command*>(core.last_value(2))->height == (stops ? 5 : 0));
     }
   }
 
