@@ -42,7 +42,8 @@ bool PayloadCursor<Swap>::over_field(const FieldDescriptor& field, int depth) {
   return true;
 }
 
-// a nested message has no length: only its fields show where it ends
+// A nested message has no length: only its fields show where it ends. Whether the fields of one may hold what they hold
+// is asked of whoever takes it out, who can say what is wrong.
 template <bool Swap>
 bool PayloadCursor<Swap>::over_inline(const FieldDescriptor& field, int depth, const MessageDescriptor*& found) {
   found = nullptr;
@@ -53,7 +54,7 @@ bool PayloadCursor<Swap>::over_inline(const FieldDescriptor& field, int depth, c
   if (id == set_.no_id()) return true;
   if (depth == max_nested) return fail_too_deep(why_);
   found = set_.find_nested(id);
-  if (!may_hold(field, found, id, why_)) return false;
+  if (!may_hold(depth == 0 ? field : FieldDescriptor{}, found, id, why_)) return false;
   if (over_fields(*found, depth + 1)) return true;
   if (why_ != nullptr) *why_ = "holds a message that can't be read: " + *why_;
   return false;
