@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "distributers/lauv/flight_limits.h"
 #include "distributers/messages/inline_message.h"
 #include "tasks/values/guidance.h"
 
@@ -36,11 +37,11 @@ constexpr double default_radius = 10;
 
 /// In m from the origin. Throws std::invalid_argument for a place that is none, or too far away to be meant.
 void set_place(tasks::Leg& leg, double latitude, double longitude, const Origin& origin);
-/// Throw std::invalid_argument for what can't be commanded.
-void set_level(tasks::Leg& leg, double z, std::uint8_t units);
-void set_speed(tasks::Leg& leg, double speed, std::uint8_t units);
+/// Throw std::invalid_argument for what can't be commanded. `name`: of the depth or altitude.
+void set_level(tasks::Leg& leg, double z, std::uint8_t units, const FlightLimits& limits, const char* name = "z");
+void set_speed(tasks::Leg& leg, double speed, std::uint8_t units, const FlightLimits& limits);
 
 /// Throws std::invalid_argument that says what can't be flown.
-Maneuver make_maneuver(const messages::InlineMessage& message, const Origin& origin);
+Maneuver make_maneuver(const messages::InlineMessage& message, const Origin& origin, const FlightLimits& limits = {});
 
 }  // namespace jarol::distributers

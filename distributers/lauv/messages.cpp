@@ -18,7 +18,7 @@ double unix_time() {
 }
 
 imc::EstimatedState estimate_state(const tasks::Motion& m, const tasks::Stream& stream, double latitude,
-                                   double longitude) {
+                                   double longitude, double altitude) {
   imc::EstimatedState s;
   s.lat = latitude;
   s.lon = longitude;
@@ -40,7 +40,7 @@ imc::EstimatedState estimate_state(const tasks::Motion& m, const tasks::Stream& 
   s.q = static_cast<float>(m.q);
   s.r = static_cast<float>(m.r);
   s.depth = static_cast<float>(m.z);
-  s.alt = -1;
+  s.alt = static_cast<float>(altitude);
   return s;
 }
 

@@ -23,9 +23,9 @@ std::string_view name_of(tasks::Alarm alarm);
 /// Now, in s since 1970: for the eyes of who reads it, never for what a run does.
 double unix_time();
 
-/// EstimatedState about an origin, latitude and longitude in rad; the altitude is not known. Its body velocities are
-/// those through the water, as `motion` has them, those north and east over ground.
+/// EstimatedState about an origin, latitude and longitude in rad; an altitude below 0 is not known. Its body velocities
+/// are those through the water, as `motion` has them, those north and east over ground.
 messages::imc::EstimatedState estimate_state(const tasks::Motion& motion, const tasks::Stream& stream, double latitude,
-                                             double longitude);
+                                             double longitude, double altitude);
 
 }  // namespace jarol::distributers

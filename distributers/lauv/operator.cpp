@@ -97,6 +97,7 @@ bool LauvOperator::use_autopilot() {
 
 void LauvOperator::demand_stop() {
   ++stops_;
+  if (ending_) overrides_end_.store(true, std::memory_order_relaxed);
   stop();
 }
 

@@ -1,12 +1,14 @@
 // The submarine's operator at a console that speaks IMC, as LSTS' Neptus does.
 #pragma once
 
+#include <atomic>
 #include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "distributers/interfaces/distributer.h"
+#include "distributers/lauv/answered_requests.h"
 #include "distributers/lauv/plan_run.h"
 #include "distributers/lauv/plan_store.h"
 #include "distributers/messages/imc.h"
@@ -28,16 +30,18 @@ struct LauvOperatorParameters {
   double full_rate = 40 * std::numbers::pi / 180;
   double button_rate = 0.1;
   double silence = 2;
+  FlightLimits limits{};
 
   static constexpr auto fields() {
     using P = LauvOperatorParameters;
     return describe(field<&P::name>("", "by which the vehicle announces itself"),
-                    field<&P::latitude>("rad", "of the origin, WGS-84"),
+                    field<&P::latitude>("rad", "of the origin, WGS-84, until the vehicle reports where it has its own"),
                     field<&P::longitude>("rad", "of the origin, WGS-84"),
                     field<&P::full_thrust>("", "thrust at the end of its axis, 0 to 1"),
                     field<&P::full_rate>("rad/s", "rate of turn at the end of the axis of heading"),
                     field<&P::button_rate>("1/s", "thrust per time while its button is held"),
-                    field<&P::silence>("s", "of a hand that steers, after which thrust and rate are 0"));
+                    field<&P::silence>("s", "of a hand that steers, after which thrust and rate are 0"),
+                    field<&P::limits>("", "of plans: what exceeds them is refused"));
   }
 };
 
@@ -46,7 +50,8 @@ struct LauvOperatorParameters {
 /// has an alarm of the vehicle forgotten whose cause is gone; until then its state is an error. While a plan runs a
 /// stick that rests counts for nothing, as the vehicle's DUNE has it: only in its Teleoperation does a hand steer, and
 /// nobody has to be heard. Another who has the link now is the operator from when it commands: until then it is the one
-/// before that is silent. What is asked is answered at the next instant.
+/// before that is silent. What is asked is answered at the next instant. While the vehicle is brought to rest at the
+/// end of a run no plan begins; a stop is obeyed in place of what brings it there.
 class LauvOperator {
  public:
   static constexpr std::string_view summary = "the submarine's operator, over IMC";
@@ -70,11 +75,13 @@ class LauvOperator {
     tasks::Motion motion;
     tasks::Stream stream;
     tasks::Progress progress;
+    tasks::Instruments instruments;
     static constexpr auto fields() {
       return describe(channel<&Out::report>("depth, pitch, heading and speed reached"),
                       channel<&Out::motion>("the vehicle's motion as it came"),
                       channel<&Out::stream>("how the water moves, as the vehicle estimates it"),
-                      channel<&Out::progress>("how far it is on a leg of its plan"));
+                      channel<&Out::progress>("how far it is on a leg of its plan"),
+                      channel<&Out::instruments>("altitude and origin, of what its instruments report"));
     }
   };
 
@@ -91,10 +98,12 @@ class LauvOperator {
         on<imc::EntityList>(&O::entity_list), on<imc::QueryEntityState>(&O::query_entity_state),
         on<imc::QueryEntityInfo>(&O::query_entity_info), on<imc::LogBookControl>(&O::log_book_control),
         compute<&In::contact>(&O::contact), send<&Out::report>(&O::send_report), send<&Out::motion>(&O::send_motion),
-        send<&Out::stream>(&O::send_stream), send<&Out::progress>(&O::note_progress));
+        send<&Out::stream>(&O::send_stream), send<&Out::progress>(&O::note_progress),
+        send<&Out::instruments>(&O::note_instruments));
   }
 
-  explicit LauvOperator(const Param& parameters) : parameters_(parameters) {}
+  explicit LauvOperator(const Param& parameters)
+      : parameters_(parameters), origin_{parameters.latitude, parameters.longitude} {}
 
   void any_message();
   void peer_changed();
@@ -102,6 +111,8 @@ class LauvOperator {
   void announce(Duration instant, messages::Receiver& all);
   void listen_at(const std::string& address) { address_ = address; }
   std::uint64_t non_finite_inputs() const { return non_finite_inputs_; }
+  void ending();
+  bool overrides_end() const { return overrides_end_.load(std::memory_order_relaxed); }
 
   In in;
 
@@ -132,6 +143,7 @@ class LauvOperator {
   void send_motion(const tasks::Motion& motion, messages::Receiver& system);
   void send_stream(const tasks::Stream& stream, messages::Receiver& system);
   void note_progress(const tasks::Progress& progress, messages::Receiver& system);
+  void note_instruments(const tasks::Instruments& instruments, messages::Receiver& system);
   void send_state(const tasks::Motion& motion, messages::Receiver& system) const;
 
   bool is_finite(double value);  // else that is counted
@@ -141,7 +153,8 @@ class LauvOperator {
   void demand_stop();
   void stop();
   void set_mode(Mode mode);
-  Origin origin() const { return {parameters_.latitude, parameters_.longitude}; }
+  void move_origin(const Origin& to);
+  double altitude() const;  // m over the sea floor; negative: not known
 
   // of plans; each returns why not, or nothing
   std::string start_plan(const imc::PlanControl& request, std::uint16_t who);
@@ -162,10 +175,10 @@ class LauvOperator {
   template <class M>
   void answer(const M& message, std::uint8_t entity, const From& to) {
     answer(message, entity);
-    if (to.header == nullptr) return;
-    answers_.back().header.dst = static_cast<const imc::Header*>(to.header)->src;
-    answers_.back().header.dst_ent = static_cast<const imc::Header*>(to.header)->src_ent;
+    address_last(to);
   }
+  void address_last(const From& to);
+  bool answer_again(const std::optional<RequestId>& request, const From& to);  // false: it was not answered before
 
   void steer_by_hand(Duration instant);
   void send_vehicle_state(messages::Receiver& system) const;
@@ -173,6 +186,7 @@ class LauvOperator {
   imc::EntityState state_of(std::uint8_t entity) const;
 
   LauvOperatorParameters parameters_;
+  Origin origin_;  // that of the vehicle, once it knows where it is
   std::string address_;
   Duration now_{};
   Mode mode_ = Mode::service;
@@ -184,6 +198,9 @@ class LauvOperator {
   int button_ = 0;      // 1: accelerate, -1: decelerate
   bool let_go_ = true;  // since an abort: it counts again after a silence
 
+  bool ending_ = false;
+  std::atomic<bool> overrides_end_{false};
+
   std::optional<Duration> aborted_;
   Duration heard_{};
   bool has_commanded_ = true;  // who has the link now; else the vehicle goes by what another one has commanded
@@ -192,6 +209,8 @@ class LauvOperator {
   double heading_ = 0;        // of the vehicle, as reported last
   tasks::Motion motion_;      // likewise
   tasks::Stream stream_;      // likewise
+  tasks::Reading altitude_;   // likewise
+  Duration altitude_at_{};    // when it came
   bool motion_sent_ = false;  // by channel `motion`, which has more than `report`
   bool mode_changed_ = true;
   std::optional<std::int64_t> second_;  // told for it
@@ -201,6 +220,7 @@ class LauvOperator {
     imc::Header header;
   };
   std::vector<Answer> answers_;
+  AnsweredRequests answered_;
   std::vector<imc::LogBookEntry> log_book_;  // the newest, as many as are kept
 
   PlanRun plan_;

@@ -11,6 +11,8 @@
 namespace jarol::distributers {
 namespace {
 
+constexpr std::string_view run_ends = "the run is ending: the vehicle is brought to rest";
+
 std::uint16_t system_of(const messages::MessageRef& from) {
   return from.header == nullptr ? 0xffff : static_cast<const imc::Header*>(from.header)->src;
 }
@@ -21,9 +23,20 @@ bool is_maneuver(std::uint32_t id) {
 
 }  // namespace
 
+// A request that the network has duplicated is obeyed once, whatever has become of it since.
+bool LauvOperator::answer_again(const std::optional<RequestId>& request, const From& to) {
+  const messages::Message* const before = answered_.find(request);
+  if (before == nullptr) return false;
+  answers_.push_back({*before, {.src_ent = plan_entity}});
+  address_last(to);
+  return true;
+}
+
 void LauvOperator::plan_control(const imc::PlanControl& plan, const From& from) {
   using Op = imc::PlanControl::Op;
   if (plan.type != imc::PlanControl::Type::REQUEST) return;
+  const std::optional<RequestId> id = id_of(plan, plan.op, from);
+  if (answer_again(id, from)) return;
   imc::PlanControl reply;
   reply.op = plan.op;
   reply.request_id = plan.request_id;
@@ -43,6 +56,7 @@ void LauvOperator::plan_control(const imc::PlanControl& plan, const From& from) 
   reply.type = reply.info.empty() ? imc::PlanControl::Type::SUCCESS : imc::PlanControl::Type::FAILURE;
   if (!reply.info.empty()) refuse(fmt::format("plan '{}': {}", plan.plan_id.view(), reply.info.view()));
   answer(reply, plan_entity, from);
+  answered_.note(id, answers_.back().message);
 }
 
 // A plan in the request is stored and loaded; without one it is the stored plan of that name.
@@ -51,7 +65,7 @@ std::string LauvOperator::load_plan(const imc::PlanControl& request, std::uint16
     const imc::PlanSpecification* const stored = plans_.find(request.plan_id.view());
     if (stored == nullptr) return fmt::format("no plan '{}' is stored here", request.plan_id.view());
     try {
-      static_cast<void>(make_plan(*stored, origin()));
+      static_cast<void>(make_plan(*stored, origin_, parameters_.limits));
     } catch (const std::invalid_argument& error) { return error.what(); }
     loaded_ = *stored;
     loaded_->plan_id = request.plan_id;
@@ -63,7 +77,7 @@ std::string LauvOperator::load_plan(const imc::PlanControl& request, std::uint16
   const auto* plan = opened.as<imc::PlanSpecification>();
   if (plan == nullptr) return fmt::format("{} is no plan", opened.descriptor()->name);
   try {
-    static_cast<void>(make_plan(*plan, origin()));
+    static_cast<void>(make_plan(*plan, origin_, parameters_.limits));
   } catch (const std::invalid_argument& error) { return error.what(); }
   const auto name = request.plan_id.empty() ? plan->plan_id.view() : request.plan_id.view();
   if (std::string why_not = plans_.set(name, *plan, who, unix_time()); !why_not.empty()) return why_not;
@@ -75,18 +89,19 @@ std::string LauvOperator::load_plan(const imc::PlanControl& request, std::uint16
 std::string LauvOperator::start_plan(const imc::PlanControl& request, std::uint16_t who) {
   try {
     if (is_maneuver(request.arg.id))
-      return execute(make_plan(std::string(request.plan_id.view()), request.arg, origin()));
+      return execute(make_plan(std::string(request.plan_id.view()), request.arg, origin_, parameters_.limits));
     // as it is stored now; one that is no more is there as it was loaded, and without a name the loaded one is meant
     const bool is_loaded = request.arg.empty() && loaded_ && plans_.find(request.plan_id.view()) == nullptr &&
                            (request.plan_id.empty() || loaded_->plan_id == request.plan_id);
     if (!is_loaded)
       if (std::string why_not = load_plan(request, who); !why_not.empty()) return why_not;
-    return execute(make_plan(*loaded_, origin()));
+    return execute(make_plan(*loaded_, origin_, parameters_.limits));
   } catch (const std::invalid_argument& error) { return error.what(); }
 }
 
 // In place of whatever goes on.
 std::string LauvOperator::execute(Plan plan) {
+  if (ending_) return std::string(run_ends);
   if (mode_ == Mode::error) return "just aborted";
   if (alarm_ != tasks::Alarm::none) return fmt::format("the vehicle comes up: {}", name_of(alarm_));
   plan_.stop("");
@@ -130,6 +145,16 @@ void LauvOperator::end_plan(const std::string& why) {
   log(imc::LogBookEntry::Type::WARNING, fmt::format("plan '{}' ends: {}", plan_.name(), why));
 }
 
+// The graph commands the vehicle from now on, until the operator stops it.
+void LauvOperator::ending() {
+  ending_ = true;
+  if (!plan_.runs()) return;
+  last_error_ = run_ends;
+  last_error_at_ = unix_time();
+  end_plan(last_error_);
+  stop();
+}
+
 void LauvOperator::note_progress(const tasks::Progress& progress, messages::Receiver&) {
   if (plan_.note(progress, motion_, now_)) follow_plan();
 }
@@ -138,9 +163,9 @@ void LauvOperator::reference(const imc::Reference& reference, const From& from) 
   const auto* header = static_cast<const imc::Header*>(from.header);
   try {
     if (plan_.follow(reference, header == nullptr ? 0xffff : header->src, header == nullptr ? 0xff : header->src_ent,
-                     now_, origin(), motion_))
+                     now_, origin_, motion_))
       follow_plan();
-  } catch (const std::invalid_argument& error) { refuse(error.what()); }
+  } catch (const std::invalid_argument& error) { refuse(std::string("a reference is left out: ") + error.what()); }
 }
 
 void LauvOperator::teleoperation_done(const imc::TeleoperationDone&) {
@@ -160,12 +185,14 @@ void LauvOperator::plan_db(const imc::PlanDB& request, const From& from) {
 
 void LauvOperator::vehicle_command(const imc::VehicleCommand& command, const From& from) {
   if (command.type != imc::VehicleCommand::Type::REQUEST) return;
+  const std::optional<RequestId> id = id_of(command, command.command, from);
+  if (answer_again(id, from)) return;
   imc::VehicleCommand reply;
   reply.request_id = command.request_id;
   reply.command = command.command;
   if (command.command == imc::VehicleCommand::Command::EXEC_MANEUVER) {
     try {
-      reply.info = execute(make_plan("", command.maneuver, origin()));
+      reply.info = execute(make_plan("", command.maneuver, origin_, parameters_.limits));
     } catch (const std::invalid_argument& error) { reply.info = error.what(); }
   } else if (command.command == imc::VehicleCommand::Command::STOP_MANEUVER) {
     demand_stop();
@@ -174,6 +201,7 @@ void LauvOperator::vehicle_command(const imc::VehicleCommand& command, const Fro
   }
   reply.type = reply.info == "" ? imc::VehicleCommand::Type::SUCCESS : imc::VehicleCommand::Type::FAILURE;
   answer(reply, plan_entity, from);
+  answered_.note(id, answers_.back().message);
 }
 
 }  // namespace jarol::distributers

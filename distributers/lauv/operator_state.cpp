@@ -1,5 +1,9 @@
 // What is reported to the operator, asked or not.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 
 #include "distributers/lauv/messages.h"
 #include "distributers/lauv/operator.h"
@@ -14,7 +18,8 @@ using tasks::Turn;
 
 constexpr std::string_view actions_known =
     "Exit=Button;Accelerate=Button;Decelerate=Button;Stop=Button;Heading=Axis;Thrust=Axis;Ranges=Range127";
-constexpr std::size_t max_kept = 100, longest_line = 500;  // of the log book: all fit into one answer
+constexpr Duration altitude_patience = std::chrono::milliseconds(2500);  // as the supervisor's
+constexpr std::size_t max_kept = 100, longest_line = 500;                // of the log book: all fit into one answer
 
 // From an entity, to all.
 template <class M>
@@ -26,6 +31,12 @@ void send_from(std::uint8_t entity, const M& message, messages::Receiver& system
 }
 
 }  // namespace
+
+void LauvOperator::address_last(const From& to) {
+  if (to.header == nullptr) return;
+  answers_.back().header.dst = static_cast<const imc::Header*>(to.header)->src;
+  answers_.back().header.dst_ent = static_cast<const imc::Header*>(to.header)->src_ent;
+}
 
 void LauvOperator::log(std::uint8_t type, const std::string& text) {
   imc::LogBookEntry entry;
@@ -176,8 +187,8 @@ void LauvOperator::announce(Duration instant, messages::Receiver& all) {
   if (!announce_timer_.is_due(instant)) return;
   all.receive(messages::refer_to(imc::make_announce({.name = parameters_.name,
                                                      .type = imc::SystemType::UUV,
-                                                     .latitude = parameters_.latitude,
-                                                     .longitude = parameters_.longitude,
+                                                     .latitude = origin_.latitude,
+                                                     .longitude = origin_.longitude,
                                                      .address = address_})));
 }
 
@@ -223,8 +234,35 @@ void LauvOperator::send_stream(const tasks::Stream& stream, messages::Receiver& 
   send_from(navigation_entity, imc::EstimatedStreamVelocity{stream.north, stream.east, 0}, system);
 }
 
+void LauvOperator::note_instruments(const tasks::Instruments& instruments, messages::Receiver&) {
+  if (instruments.altitude.count != altitude_.count) altitude_at_ = now_;
+  altitude_ = instruments.altitude;
+  const bool moved = instruments.latitude != origin_.latitude || instruments.longitude != origin_.longitude;
+  if (instruments.place.count > 0 && moved) move_origin({instruments.latitude, instruments.longitude});
+}
+
+// Its places are counted from there, and those of a plan that was made before mean others.
+void LauvOperator::move_origin(const Origin& to) {
+  const auto text = [](const Origin& o) {
+    return fmt::format("{:.4f} {:.4f} deg", o.latitude / degree, o.longitude / degree);
+  };
+  log(imc::LogBookEntry::Type::WARNING,
+      fmt::format("places are measured from {}, as the vehicle does, not from {}", text(to), text(origin_)));
+  origin_ = to;
+  if (!plan_.runs()) return;
+  end_plan("the vehicle measures its places from elsewhere now");
+  stop();
+}
+
+// As it is above the floor, not along the beam.
+double LauvOperator::altitude() const {
+  if (altitude_.count < 1 || now_ - altitude_at_ > altitude_patience) return -1;
+  return altitude_.value * std::cos(motion_.theta) * std::cos(motion_.phi);
+}
+
 void LauvOperator::send_state(const tasks::Motion& motion, messages::Receiver& system) const {
-  send_from(navigation_entity, estimate_state(motion, stream_, parameters_.latitude, parameters_.longitude), system);
+  send_from(navigation_entity, estimate_state(motion, stream_, origin_.latitude, origin_.longitude, altitude()),
+            system);
 }
 
 }  // namespace jarol::distributers

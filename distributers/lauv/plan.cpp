@@ -77,8 +77,8 @@ void connect(Plan& plan, const imc::PlanTransition& transition) {
 
 }  // namespace
 
-Plan make_plan(const imc::PlanSpecification& plan, const Origin& origin) {
-  Plan made{.name = std::string(plan.plan_id.view())};
+Plan make_plan(const imc::PlanSpecification& plan, const Origin& origin, const FlightLimits& limits) {
+  Plan made{.name = std::string(plan.plan_id.view()), .limits = limits};
   if (plan.maneuvers.empty()) refuse_plan("the plan has no maneuver");
   if (plan.maneuvers.size() > max_maneuvers)
     refuse_plan(fmt::format("the plan has more than {} maneuvers", max_maneuvers));
@@ -88,7 +88,7 @@ Plan make_plan(const imc::PlanSpecification& plan, const Origin& origin) {
     if (std::any_of(made.maneuvers.begin(), made.maneuvers.end(), [&](const Maneuver& m) { return m.name == name; }))
       refuse_plan(fmt::format("two maneuvers are named '{}'", name));
     try {
-      made.maneuvers.push_back(make_maneuver(each.data, origin));
+      made.maneuvers.push_back(make_maneuver(each.data, origin, limits));
     } catch (const std::invalid_argument& error) { refuse_plan(fmt::format("maneuver '{}': {}", name, error.what())); }
     made.maneuvers.back().name = name;
     legs += made.maneuvers.back().legs.size();
@@ -100,8 +100,12 @@ Plan make_plan(const imc::PlanSpecification& plan, const Origin& origin) {
   return made;
 }
 
-Plan make_plan(std::string name, const messages::InlineMessage& maneuver, const Origin& origin) {
-  Plan made{.name = std::move(name), .maneuvers = {make_maneuver(maneuver, origin)}, .next = {std::nullopt}};
+Plan make_plan(std::string name, const messages::InlineMessage& maneuver, const Origin& origin,
+               const FlightLimits& limits) {
+  Plan made{.name = std::move(name),
+            .maneuvers = {make_maneuver(maneuver, origin, limits)},
+            .next = {std::nullopt},
+            .limits = limits};
   made.maneuvers.front().name = "1";
   return made;
 }

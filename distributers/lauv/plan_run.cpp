@@ -47,7 +47,7 @@ void PlanRun::begin_maneuver(std::size_t which, const tasks::Motion& motion, Dur
   left_ = -1;
   maneuver_start_ = now;
   follower_.reset();
-  if (maneuver().type == messages::imc::FollowReference::message_id) follower_.emplace(maneuver(), now);
+  if (maneuver().type == messages::imc::FollowReference::message_id) follower_.emplace(maneuver(), now, plan_.limits);
   if (!maneuver().legs.empty()) return begin_leg(motion);
   begin_leg(follower_ ? follower_->leg() : tasks::Leg{});
 }

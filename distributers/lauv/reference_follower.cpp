@@ -35,11 +35,12 @@ double radius_on(Course course, double radius) {
 
 }  // namespace
 
-ReferenceFollower::ReferenceFollower(const Maneuver& maneuver, Duration now)
+ReferenceFollower::ReferenceFollower(const Maneuver& maneuver, Duration now, const FlightLimits& limits)
     : source_(maneuver.control_source),
       entity_(maneuver.control_entity),
       timeout_(maneuver.timeout),
       radius_(maneuver.loiter_radius),
+      limits_(limits),
       heard_(now),
       leg_{.course = Course::rest, .surge = usual_speed} {}
 
@@ -64,14 +65,15 @@ bool ReferenceFollower::take(const imc::Reference& reference, std::uint16_t sour
     if (speed.value == 0)
       leg.drive = tasks::Drive::thrust, leg.thrust = 0;
     else
-      set_speed(leg, speed.value, speed.speed_units);
+      set_speed(leg, speed.value, speed.speed_units, limits_);
   }
   if ((reference.flags & Flags::Z) != 0) {
     const auto z = read<imc::DesiredZ>(reference.z, "z");
-    set_level(leg, static_cast<double>(z.value), z.z_units);
+    set_level(leg, static_cast<double>(z.value), z.z_units, limits_);
   }
   if ((reference.flags & Flags::RADIUS) != 0) {
     if (!std::isfinite(reference.radius)) throw std::invalid_argument("the reference's radius is no number");
+    check_radius(limits_, std::abs(static_cast<double>(reference.radius)), "the reference's radius");
     radius_ = static_cast<double>(reference.radius);
     if (leg.course == Course::circle || leg.course == Course::station) leg.radius = radius_on(leg.course, radius_);
   }

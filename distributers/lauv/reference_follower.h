@@ -12,7 +12,7 @@ namespace jarol::distributers {
 
 class ReferenceFollower {
  public:
-  ReferenceFollower(const Maneuver& maneuver, Duration now);
+  ReferenceFollower(const Maneuver& maneuver, Duration now, const FlightLimits& limits = {});
 
   /// Takes a reference; what it leaves out is as before, and the place at first that of the vehicle. At speed 0 the
   /// propeller is off. False: who sent it may not. Throws std::invalid_argument for what can't be commanded, and
@@ -31,6 +31,7 @@ class ReferenceFollower {
   std::uint16_t source_;
   std::uint8_t entity_;
   double timeout_, radius_;
+  FlightLimits limits_;
   Duration heard_;
   bool heard_any_ = false, done_ = false;
   messages::imc::Reference reference_;

@@ -28,11 +28,12 @@ bool measured(std::initializer_list<double> values) {
 
 }  // namespace
 
-LauvVehicle::LauvVehicle(const Param& parameters)
-    : parameters_(parameters), latitude_(parameters.latitude), longitude_(parameters.longitude) {
+LauvVehicle::LauvVehicle(const Param& parameters) : parameters_(parameters) {
   using P = LauvVehicleParameters;
   using I = Instruments;
   Instruments& all = in.instruments.value;
+  all.latitude = parameters.latitude;
+  all.longitude = parameters.longitude;
   const auto leave_out = [&](const LauvInstrument& instrument, auto& reading) {
     if (!instrument.fitted) reading.count = -1;
   };
@@ -192,16 +193,17 @@ void LauvVehicle::entity(const imc::EntityState& m, const messages::MessageRef& 
 
 // offsets from the origin along meridian and parallel, the shorter way around the Earth
 std::pair<double, double> LauvVehicle::from_origin(double latitude, double longitude) const {
-  const EarthRadii radii = earth_radii(latitude_);
-  return {(latitude - latitude_) * radii.north, wrapped(longitude - longitude_) * radii.east};
+  const Instruments& i = *in.instruments;
+  const EarthRadii radii = earth_radii(i.latitude);
+  return {(latitude - i.latitude) * radii.north, wrapped(longitude - i.longitude) * radii.east};
 }
 
 void LauvVehicle::place(double latitude, double longitude) {
   if (!all_finite({latitude, longitude})) return;
   auto [north, east] = from_origin(latitude, longitude);
   if (in.instruments->place.count < 1 && std::hypot(north, east) > flat_earth) {
-    latitude_ = latitude;
-    longitude_ = longitude;
+    in.instruments.renew().latitude = latitude;
+    in.instruments.renew().longitude = longitude;
     north = east = 0;
   }
   tasks::VectorReading& r = in.instruments.renew().place;

@@ -113,8 +113,8 @@ class LauvVehicle {
   std::uint64_t non_finite_inputs() const { return non_finite_inputs_; }
   /// Without what concerns a link to elsewhere.
   void serialize(Archive& archive) {
-    archive(entities_, leaks_, label_lacks_, asked_, non_finite_inputs_, latitude_, longitude_, beacons_, sent_fins_,
-            reached_, steers_itself_);
+    archive(entities_, leaks_, label_lacks_, asked_, non_finite_inputs_, beacons_, sent_fins_, reached_,
+            steers_itself_);
   }
 
   In in;
@@ -175,7 +175,6 @@ class LauvVehicle {
   bool label_lacks_ = false;
   std::optional<Duration> asked_;
   std::uint64_t non_finite_inputs_ = 0;
-  double latitude_ = 0, longitude_ = 0;  // of the origin
   std::array<Beacon, 2> beacons_{};
   std::array<double, 4> sent_fins_{};
   Duration reached_{};                     // instant

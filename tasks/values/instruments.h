@@ -62,6 +62,7 @@ struct Instruments {
   Reading voltage{};
   Reading current{};
   std::array<BeaconReading, 2> beacons{};
+  double latitude = 0, longitude = 0;
 
   static constexpr auto fields() {
     using I = Instruments;
@@ -74,7 +75,8 @@ struct Instruments {
         field<&I::place>("", "m north and east of the origin, of GPS"), field<&I::altitude>("", "m over the sea floor"),
         field<&I::conductivity>("", "S/m, of the CTD"), field<&I::water_temperature>("", "degC, of the CTD"),
         field<&I::leak>("", "1 for water in the hull"), field<&I::voltage>("", "V, of the battery"),
-        field<&I::current>("", "A, from the battery"), field<&I::beacons>("", "acoustic transponders"));
+        field<&I::current>("", "A, from the battery"), field<&I::beacons>("", "acoustic transponders"),
+        field<&I::latitude>("rad", "of the origin, WGS-84"), field<&I::longitude>("rad", "of the origin"));
   }
 };
 

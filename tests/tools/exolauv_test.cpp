@@ -9,7 +9,9 @@
 #include <numbers>
 #include <vector>
 
+#include "distributers/lauv/operator.h"
 #include "runtime/execute/executor.h"
+#include "tasks/lauv/supervisor.h"
 #include "tasks/values/lauv.h"
 #include "tools/commands/run/load_graph.h"
 
@@ -31,6 +33,28 @@ constexpr double command_at = 2, turn_at = 50;  // s, as in specs/missions/dive.
 }  // namespace
 
 TEST_SUITE("tools/exolauv") {
+  TEST_CASE("the limits of plans are those of its supervisor and of what its propeller reaches, in each profile") {
+    for (const char* profile : {"", "at_sea", "submarine_dune", "submarine_vsim", "dune", "console", "desk", "lab"}) {
+      CAPTURE(profile);
+      const Loaded loaded = tools::load_without_channels("specs/exolauv.yaml", {.profile = profile});
+      const auto parameters_of = [](const auto& all, const char* name) -> const void* {
+        for (const auto& each : all)
+          if (each.name == name) return each.parameters.data();
+        return nullptr;
+      };
+      const auto* supervisor =
+          static_cast<const tasks::LauvSupervisor::Param*>(parameters_of(loaded.graph->tasks, "supervisor"));
+      const auto* console =
+          static_cast<const distributers::LauvOperatorParameters*>(parameters_of(loaded.graph->distributers, "neptus"));
+      REQUIRE(supervisor != nullptr);
+      REQUIRE(console != nullptr);
+      const distributers::FlightLimits& limits = console->limits;
+      CHECK(limits.max_depth == supervisor->max_depth);
+      CHECK(limits.min_altitude == supervisor->min_altitude);
+      CHECK(supervisor->surge_drag * limits.max_speed * (1 + limits.max_speed) <= supervisor->max_thrust * 1.0001);
+    }
+  }
+
   TEST_CASE("it reaches 3 m within 30 s of the command and holds it within 5 cm, through the turn too") {
     double deepest = 0;
     for (const Sample& s : the_dive().samples) {

@@ -254,7 +254,7 @@ TEST_SUITE("distributers/lauv_maneuvers") {
     refuses(m, "z is taken as DEPTH or ALTITUDE, 1 or 2, not 3");
     m.z_units = imc::ZUnits::DEPTH;
     m.speed = 0;
-    refuses(m, "speed is 0; it is positive");
+    refuses(m, "speed is 0 m/s; speeds are 0.2 to 2 m/s");
     m.speed = 1000;
     m.speed_units = imc::SpeedUnits::RPM;
     refuses(m, "speed is taken in m/s or %, 0 or 2, not 1");

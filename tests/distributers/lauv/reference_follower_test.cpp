@@ -116,7 +116,7 @@ TEST_SUITE("distributers/lauv_reference_follower") {
     CHECK(f.follower.leg().drive == tasks::Drive::thrust);
     f.take(reference_at_speed(1));
     CHECK(f.follower.leg().drive == tasks::Drive::speed);
-    f.refuse(reference_at_speed(-1), "speed is -1; it is positive");
+    f.refuse(reference_at_speed(-1), "speed is -1 m/s; speeds are 0.2 to 2 m/s");
     CHECK(f.follower.leg().surge == 1);
   }
 }

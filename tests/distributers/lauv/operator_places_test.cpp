@@ -1,0 +1,108 @@
+// What the operator makes of the vehicle's instruments: its altitude, and where its places are measured from.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "distributers/lauv/vehicle.h"
+#include "graph/math/geometry.h"
+#include "tests/distributers/lauv/inline_messages.h"
+#include "tests/distributers/lauv_console.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::tests;
+
+struct Reports : Conversation {
+  imc::EstimatedState state(const tasks::Motion& motion = {}) {
+    adapter.hand_over<&LauvOperator::Out::motion>(motion, to);
+    return to.last<imc::EstimatedState>();
+  }
+  void report(const tasks::Instruments& instruments) {
+    adapter.hand_over<&LauvOperator::Out::instruments>(instruments, to);
+  }
+  std::string start(double latitude, double longitude) {
+    imc::Goto m;
+    m.lat = latitude;
+    m.lon = longitude;
+    m.speed = 1;
+    imc::PlanControl request;
+    request.plan_id = "p";
+    request.arg = packed(m);
+    say(request);
+    pass(50ms);
+    return std::string(to.last<imc::PlanControl>().info.view());
+  }
+};
+
+tasks::Instruments with_altitude(double value, std::int64_t count) {
+  tasks::Instruments i;
+  i.altitude = {value, count};
+  return i;
+}
+}  // namespace
+
+TEST_SUITE("distributers/lauv/operator_places") {
+  TEST_CASE("the altitude is that above the floor, not along the beam, as long as the altimeter reports it") {
+    Reports c;
+    CHECK(c.state().alt == -1);
+    c.report(with_altitude(0, 0));
+    CHECK(c.state().alt == -1);
+    c.report(with_altitude(8, 1));
+    CHECK(c.state().alt == 8);
+    tasks::Motion leaning;
+    leaning.theta = 60 * degree;
+    leaning.phi = 45 * degree;
+    CHECK(c.state(leaning).alt == doctest::Approx(8 * 0.5 * std::sqrt(0.5)));
+    c.pass(2500ms);
+    c.report(with_altitude(8, 1));
+    CHECK(c.state().alt == 8);
+    c.pass(50ms);
+    c.report(with_altitude(8, 1));
+    CHECK(c.state().alt == -1);
+    c.report(with_altitude(7, 2));
+    CHECK(c.state().alt == 7);
+  }
+
+  TEST_CASE("a vehicle that found itself far from the origin is shown where it is, and plans are flown there") {
+    constexpr double latitude = 38.43 * degree, longitude = -9.1 * degree;
+    distributers::Typed<distributers::LauvVehicle> vehicle;
+    imc::GpsFix fix;
+    fix.validity = imc::GpsFix::Validity::VALID_POS;
+    fix.lat = latitude;
+    fix.lon = longitude;
+    vehicle.receive(fix);
+    tasks::Instruments found;
+    REQUIRE(vehicle.take<&distributers::LauvVehicle::In::instruments>(found));
+    Reports c;
+    c.report({});  // before it has found itself
+    CHECK(c.state().lat == LauvOperatorParameters{}.latitude);
+    CHECK(c.start(latitude, longitude) == "its place is 308 km from the origin; places within 100 km are gone to");
+    CHECK(c.start(LauvOperatorParameters{}.latitude, LauvOperatorParameters{}.longitude) == "");
+    c.report(found);
+    c.pass(50ms);
+    CHECK(c.state().lat == latitude);
+    CHECK(c.state().lon == longitude);
+    const auto lines = c.to.all<imc::LogBookEntry>();
+    REQUIRE(lines.size() >= 2);
+    CHECK(lines[lines.size() - 2].text ==
+          "places are measured from 38.4300 -9.1000 deg, as the vehicle does, not from 41.1850 -8.7062 deg");
+    CHECK(lines.back().text == "plan 'p' ends: the vehicle measures its places from elsewhere now");
+    CHECK(c.to.last<imc::PlanControlState>().last_outcome == imc::PlanControlState::LastOutcome::FAILURE);
+    CHECK(c.start(latitude + 1e-5, longitude) == "");
+    tasks::Leg leg;
+    CHECK(c.adapter.take<&LauvOperator::In::leg>(leg));
+    CHECK(leg.north == doctest::Approx(1e-5 * earth_radii(latitude).north));
+    CHECK(leg.east == 0);
+  }
+
+  TEST_CASE("without a fix the vehicle's origin is not known, and the operator's counts") {
+    Reports c;
+    tasks::Instruments other;
+    other.latitude = 0.5;
+    c.report(other);
+    CHECK(c.state().lat == LauvOperatorParameters{}.latitude);
+    other.place.count = 1;
+    c.report(other);
+    CHECK(c.state().lat == 0.5);
+  }
+}
