@@ -22,8 +22,8 @@ void check_level(const FlightLimits& limits, tasks::Vertical from, double level,
 
 void check_speed(const FlightLimits& limits, double speed) {
   if (speed * rounding >= limits.min_speed && speed <= limits.max_speed * rounding) return;
-  throw std::invalid_argument(fmt::format("speed is {:.6g} m/s; speeds are {:.6g} to {:.6g} m/s", speed,
-                                          limits.min_speed, limits.max_speed));
+  throw std::invalid_argument(
+      fmt::format("speed is {:.6g} m/s; speeds are {:.6g} to {:.6g} m/s", speed, limits.min_speed, limits.max_speed));
 }
 
 void check_percentage(const FlightLimits& limits, double percentage) {
@@ -34,8 +34,7 @@ void check_percentage(const FlightLimits& limits, double percentage) {
 
 void check_radius(const FlightLimits& limits, double radius, std::string_view what) {
   if (!(radius <= limits.max_radius * rounding))
-    throw std::invalid_argument(
-        fmt::format("{} is {:.6g} m; it is at most {:.6g} m", what, radius, limits.max_radius));
+    throw std::invalid_argument(fmt::format("{} is {:.6g} m; it is at most {:.6g} m", what, radius, limits.max_radius));
 }
 
 }  // namespace jarol::distributers

@@ -173,8 +173,7 @@ TEST_SUITE("distributers/lauv/flight_limits") {
       c.adapter.take<&LauvOperator::In::leg>(leg);
       CHECK(leg.level == (deep ? 13 : 0));
       if (!deep)
-        CHECK(c.to.last<imc::LogBookEntry>().text ==
-              "a reference is left out: z is 13 m; depths are at most 11.5 m");
+        CHECK(c.to.last<imc::LogBookEntry>().text == "a reference is left out: z is 13 m; depths are at most 11.5 m");
     }
   }
 
