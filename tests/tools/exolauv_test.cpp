@@ -36,7 +36,7 @@ TEST_SUITE("tools/exolauv") {
   TEST_CASE("the limits of plans are those of its supervisor and of what its propeller reaches, in each profile") {
     for (const char* profile : {"", "at_sea", "submarine_dune", "submarine_vsim", "dune", "console", "desk", "lab"}) {
       CAPTURE(profile);
-      const Loaded loaded = tools::load_without_channels("specs/exolauv.yaml", {.profile = profile});
+      const Loaded loaded = tools::load_without_channels("specs/exolauv.yaml", {.profile = profile, .set = {}});
       const auto parameters_of = [](const auto& all, const char* name) -> const void* {
         for (const auto& each : all)
           if (each.name == name) return each.parameters.data();
