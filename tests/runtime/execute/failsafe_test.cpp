@@ -267,6 +267,21 @@ connections: [i -> s.a, k -> s.b, s.out -> o]
     }));
   }
 
+  TEST_CASE("what an external system throws at the end that is no exception is why it was not handed the value") {
+    struct Broken : Sensor {
+      using Sensor::Sensor;
+      void flush() override { throw 42; }
+      bool outlives_run() const override { return true; }
+    };
+    const Graph graph = graph_with_timeout();
+    std::vector<double> handed;
+    std::vector<std::unique_ptr<ExternalSystem>> channels;
+    channels.push_back(std::make_unique<Broken>(std::vector<std::pair<Duration, double>>{{0ms, 7}}, handed));
+    Executor executor(graph, std::move(channels));
+    executor.close(Futex::now() + 10s);
+    CHECK(executor.failsafe()[0].at_end->failure == "something was thrown that is no exception");
+  }
+
   TEST_CASE("an external system that is lost within an instant is handed the safe value all the same") {
     struct Lost : Sensor {
       Lost(std::vector<double>& handed, bool in_reach) : Sensor({{0ms, 7}}, handed), in_reach_(in_reach) {}
