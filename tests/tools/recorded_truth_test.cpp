@@ -64,7 +64,7 @@ TEST_SUITE("tools/recorded_truth") {
         "2>&1 >/dev/null");
     CHECK(run.exit_code == 1);
     const std::string begin = "error: the vehicle of 'robostix' has ";
-    REQUIRE(run.output.starts_with(begin + "crashed: a rotor met the ground, at 10."));
+    REQUIRE(run.output.starts_with(begin + "crashed: a rotor met the ground, at 9."));
     const std::string mishap = run.output.substr(begin.size(), run.output.size() - begin.size() - 1);
     const auto replay = command::run_jarol("replay " + file, "2>&1 >/dev/null");
     CHECK(replay.exit_code == 1);

@@ -39,7 +39,7 @@ TEST_SUITE("tools/threads") {
     CHECK(threads["concurrency"] == "threads");
     CHECK(exotasks["concurrency"] == "exotasks");
     CHECK(threads["digest_claimed"] == false);
-    CHECK(threads["outputs"].size() == 5);
+    CHECK(threads["outputs"].size() == 6);
     for (const auto& [output, value] : exotasks["outputs"].items()) {
       CAPTURE(output);
       REQUIRE(threads["outputs"].contains(output));

@@ -128,7 +128,7 @@ struct LimitParameters {
   double touch_speed = 2.0;
   double tilt = std::numbers::pi / 2;
   double take_off_signal = 8000.0;
-  double take_off_time = 5.0;
+  double take_off_time = 1.5;
 
   static constexpr auto fields() {
     using S = LimitParameters;
