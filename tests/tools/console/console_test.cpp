@@ -100,7 +100,8 @@ TEST_SUITE("console/console") {
     const json& neptus = described["distributers"][1];
     CHECK(neptus["type"] == "LauvOperator");
     CHECK(neptus["parameters"][1] == json::parse(R"({"path": "latitude", "kind": "number", "unit": "rad",
-        "value": "0.7188138524338646", "default": "0.7188138524338646", "text": "of the origin, WGS-84"})"));
+        "value": "0.7188138524338646", "default": "0.7188138524338646",
+        "text": "of the origin, WGS-84, until the vehicle reports where it has its own"})"));
     const json& depth = *std::find_if(described["tasks"].begin(), described["tasks"].end(),
                                       [](const json& task) { return task["name"] == "depth"; });
     CHECK(depth["parameters"][0] == json::parse(R"({"path": "kp", "kind": "number", "unit": "rad/m", "value": "0.45",
