@@ -15,11 +15,13 @@ Cause find_lean(const FlightLogic::Param& p, const FlightEstimate& e) {
   return std::abs(e.pitch) > p.pitch_limit ? Cause::pitch : Cause::none;
 }
 
+// Angles that nobody has measured lately may have gone anywhere.
+bool measures_lean(const FlightEstimate& e) { return e.attitude_known && e.rates_known; }
+
 // Out of control, on its side or its back, where rotors do nothing but harm.
 bool lies_over(const FlightLogic::Param& p, const FlightEstimate& e) {
-  const bool is_known = e.attitude_known || e.rates_known || e.lean_known;
-  return is_known &&
-         std::cos(e.roll) * std::cos(e.pitch) < std::cos(e.attitude_known ? p.out_of_control : p.overturned);
+  return (e.rates_known || e.lean_known) &&
+         std::cos(e.roll) * std::cos(e.pitch) < std::cos(measures_lean(e) ? p.out_of_control : p.overturned);
 }
 
 // Its rotors give what they can, and it does not rise.
@@ -133,7 +135,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
     state.without_lift = lacks_lift(p, in, d) ? state.without_lift + dt : 0;
     const Cause cause = find_cause(p, in, wants_position, state.unheard, state.without_lift);
     const bool leans = cause == Cause::roll || cause == Cause::pitch;
-    if (leans && e.attitude_known && e.altitude_known && e.altitude < p.tips_below) {
+    if (leans && measures_lean(e) && e.altitude_known && e.altitude < p.tips_below) {
       // it goes on over its feet, and thrust would only throw it
       enter(FlightState::halt, cause, state, d);
     } else if (cause != Cause::none) {
@@ -152,7 +154,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
     state.still = still || in.lift.thrust < p.light ? state.still + dt : 0;
     state.lies_over = lies_over(p, e) ? state.lies_over + dt : 0;
     // out of control it is better on the ground here than somewhere else; a lean that lasers show may be another
-    if (state.lies_over > (e.attitude_known ? p.out_of_control_time : p.touch_time))
+    if (state.lies_over > (measures_lean(e) ? p.out_of_control_time : p.touch_time))
       enter(FlightState::halt, d.cause, state, d);
     else if (state.since > 1 && state.still > p.touch_time)
       enter(FlightState::ground, d.cause, state, d);

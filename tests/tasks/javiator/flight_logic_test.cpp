@@ -265,6 +265,13 @@ TEST_SUITE("tasks/flight_logic") {
     CHECK(after(3, 0, 19, false, true) == FlightState::landing);
     CHECK(after(3, 0, 22, false, true) == FlightState::halt);
     CHECK(after(3, 0, 100, false, false) == FlightState::landing);
+    // what was measured last, while no answers come
+    Logic unanswered;
+    unanswered.fly();
+    unanswered.press();
+    unanswered.in.estimate.roll = 3;
+    unanswered.in.estimate.rates_known = unanswered.in.estimate.answers_known = false;
+    CHECK(unanswered.run(100) == FlightState::landing);
   }
 
   TEST_CASE("one that leans beyond its limits below 20 cm tips over its feet: its motors are locked") {
@@ -282,6 +289,12 @@ TEST_SUITE("tasks/flight_logic") {
     CHECK(at(0.19, -0.61).cause == LandingCause::pitch);
     CHECK(at(0.21, -0.61).state == FlightState::landing);
     CHECK(at(0.19, -0.61, false).state == FlightState::landing);
+    Logic unanswered;
+    unanswered.fly();
+    unanswered.in.estimate.altitude = 0.19;
+    unanswered.in.estimate.pitch = -0.61;
+    unanswered.in.estimate.rates_known = unanswered.in.estimate.answers_known = false;
+    CHECK(unanswered.run(1) == FlightState::landing);
   }
 
   TEST_CASE("one that does not rise at full thrust for 1.5 s lands, and says so") {
