@@ -1,17 +1,15 @@
 #include "graph/language/yaml.h"
 
-#include <yaml-cpp/eventhandler.h>
-#include <yaml-cpp/exceptions.h>
-#include <yaml-cpp/mark.h>
-#include <yaml-cpp/parser.h>
+#include <yaml.h>
 
 #include <algorithm>
-#include <istream>
+#include <array>
 #include <map>
 #include <unordered_set>
+#include <utility>
 
 #include "graph/language/read_source.h"
-#include "graph/language/text_pieces.h"
+#include "graph/language/yaml_events.h"
 
 namespace jarol {
 namespace {
@@ -24,99 +22,116 @@ constexpr std::size_t min_bytes_each = 4;  // beyond that many
 constexpr std::size_t max_aliased = 100'000;
 constexpr std::size_t max_depth = 64;
 
-// Builds the tree from yaml-cpp's events, which still know anchors, quotes and every key.
-class Builder : public YAML::EventHandler {
+/// A text that is no YAML of a reasonable size; what is too much is a Problem by then.
+struct TooMuch {};
+
+std::string_view text_of(const yaml_char_t* text) {
+  return text == nullptr ? std::string_view() : std::string_view(reinterpret_cast<const char*>(text));
+}
+
+// The keys of a mapping; of few, all are looked at.
+class Keys {
  public:
-  Builder(std::shared_ptr<const Source> source, TextPieces& pieces, Problems& problems)
-      : source_(std::move(source)), pieces_(pieces), problems_(problems) {}
-
-  Yaml take() { return std::move(root_); }
-
-  void report_too_far_ahead() {
-    problems_.add(last_, "what follows here is too long for one line, text, comment or nest of brackets: more than " +
-                             std::to_string(max_bytes_ahead >> 20) + " MiB or " + std::to_string(max_marks_ahead) +
-                             " marks; write it without outer brackets, on several lines");
+  // False: it is there already.
+  bool add(const std::string& key, const std::vector<Yaml>& before) {
+    constexpr std::size_t few = 16;
+    if (before.size() < few)
+      return std::none_of(before.begin(), before.end(), [&](const Yaml& other) { return other.key == key; });
+    if (before.size() == few && many_.empty())
+      for (const Yaml& other : before) many_.insert(other.key);
+    return many_.insert(key).second;
   }
 
-  void OnDocumentStart(const YAML::Mark& mark) override { at(mark); }
-  void OnDocumentEnd() override {}
+ private:
+  std::unordered_set<std::string> many_;  // asked, never iterated
+};
 
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    Yaml value;
-    value.where = at(mark);
-    finish(std::move(value), anchor);
-  }
+// Builds the tree from events, which still know anchors, quotes and every key.
+class Builder {
+ public:
+  Builder(YamlEvents& events, Problems& problems) : events_(events), problems_(problems) {}
 
-  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    const auto found = anchored_.find(anchor);
-    if (found != anchored_.end()) {
-      // aliases of aliases multiply
-      aliased_ += count(found->second);
-      if (aliased_ > max_aliased)
-        too_much(mark, "aliases stand for more than " + std::to_string(max_aliased) + " values");
-      return finish(Yaml(found->second), 0);
+  // From after the begin of a document to its end.
+  Yaml read() {
+    for (;;) {
+      const yaml_event_t& event = events_.next();
+      switch (event.type) {
+        case YAML_ALIAS_EVENT: take_alias(std::string(text_of(event.data.alias.anchor))); break;
+        case YAML_SCALAR_EVENT: take_scalar(event.data.scalar); break;
+        case YAML_SEQUENCE_START_EVENT:
+          open(Yaml::Kind::sequence, event.data.sequence_start.anchor, event.data.sequence_start.tag);
+          break;
+        case YAML_MAPPING_START_EVENT:
+          open(Yaml::Kind::mapping, event.data.mapping_start.anchor, event.data.mapping_start.tag);
+          break;
+        case YAML_SEQUENCE_END_EVENT:
+        case YAML_MAPPING_END_EVENT: close(); break;
+        case YAML_DOCUMENT_END_EVENT: return std::move(root_);
+        case YAML_NO_EVENT:
+        case YAML_STREAM_START_EVENT:
+        case YAML_STREAM_END_EVENT:
+        case YAML_DOCUMENT_START_EVENT: break;
+      }
     }
-    problems_.add(at(mark), "an alias stands inside the very value it refers to; a value can't contain itself");
-    Yaml value;
-    value.where = at(mark);
-    finish(std::move(value), 0);
   }
-
-  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                const std::string& text) override {
-    Yaml value;
-    value.where = at(mark);
-    value.quoted = tag == "!";
-    value.text = text;
-    value.kind = Yaml::Kind::scalar;
-    refuse_tag(tag, mark);
-    finish(std::move(value), anchor);
-  }
-
-  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                       YAML::EmitterStyle::value) override {
-    refuse_tag(tag, mark);
-    open(Yaml::Kind::sequence, mark, anchor);
-  }
-  void OnSequenceEnd() override { close(); }
-
-  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                  YAML::EmitterStyle::value) override {
-    refuse_tag(tag, mark);
-    open(Yaml::Kind::mapping, mark, anchor);
-  }
-  void OnMapEnd() override { close(); }
 
  private:
   struct Open {
     Yaml value;
-    YAML::anchor_t anchor = 0;
+    std::string anchor;
     bool has_key = false;
     Yaml key;
-    std::unordered_set<std::string> keys;  // asked, never iterated
+    Keys keys;
   };
 
-  // of each event
-  Location at(const YAML::Mark& mark) {
-    pieces_.understood();
-    if (!mark.is_null()) last_ = {source_, mark.line + 1, mark.column + 1};
-    return last_;
-  }
-
-  void refuse_tag(const std::string& tag, const YAML::Mark& mark) {
-    if (tag.empty() || tag == "?" || tag == "!") return;
-    problems_.add(at(mark), "tag '" + tag + "' is not supported; leave it out");
-  }
-
-  void open(Yaml::Kind kind, const YAML::Mark& mark, YAML::anchor_t anchor) {
-    if (open_.size() >= max_depth) {
-      problems_.add(at(mark), "values are nested deeper than " + std::to_string(max_depth) + " levels");
-      throw TooMuch();
+  void take_alias(const std::string& name) {
+    Yaml value;
+    value.where = here();
+    const auto found = anchored_.find(name);
+    if (found != anchored_.end()) {
+      // aliases of aliases multiply
+      aliased_ += count(found->second);
+      if (aliased_ > max_aliased) too_much("aliases stand for more than " + std::to_string(max_aliased) + " values");
+      return finish(Yaml(found->second), "");
     }
+    if (std::any_of(open_.begin(), open_.end(), [&](const Open& outer) { return outer.anchor == name; }))
+      problems_.add(value.where, "an alias stands inside the very value it refers to; a value can't contain itself");
+    else
+      problems_.add(value.where, "alias '*" + name + "' has no anchor before it; write '&" + name +
+                                     "' before what it is to stand for");
+    finish(std::move(value), "");
+  }
+
+  void take_scalar(const decltype(yaml_event_t::data.scalar)& scalar) {
+    static constexpr std::array<std::string_view, 5> nothing{"", "~", "null", "Null", "NULL"};
+    const std::string_view text(reinterpret_cast<const char*>(scalar.value), scalar.length);
+    Yaml value;
+    value.where = here();
+    value.quoted = scalar.style != YAML_PLAIN_SCALAR_STYLE;
+    refuse_tag(scalar.tag, value.where);
+    if (value.quoted || scalar.tag != nullptr || std::find(nothing.begin(), nothing.end(), text) == nothing.end()) {
+      value.kind = Yaml::Kind::scalar;
+      value.text = text;
+    }
+    finish(std::move(value), text_of(scalar.anchor));
+  }
+
+  // of the event at hand
+  const Location& here() { return last_ = events_.where(); }
+
+  void refuse_tag(const yaml_char_t* tag, const Location& where) {
+    if (tag != nullptr) problems_.add(where, "tag '" + std::string(text_of(tag)) + "' is not supported; leave it out");
+  }
+
+  void open(Yaml::Kind kind, const yaml_char_t* anchor, const yaml_char_t* tag) {
     Open value;
     value.value.kind = kind;
-    value.value.where = at(mark);
-    value.anchor = anchor;
+    value.value.where = here();
+    refuse_tag(tag, last_);
+    if (open_.size() >= max_depth) too_much("values are nested deeper than " + std::to_string(max_depth) + " levels");
+    value.anchor = text_of(anchor);
+    // the name is another's from now on
+    if (!value.anchor.empty()) anchored_.erase(value.anchor);
     open_.push_back(std::move(value));
   }
 
@@ -132,21 +147,19 @@ class Builder : public YAML::EventHandler {
     return sum;
   }
 
-  [[noreturn]] void too_much(const YAML::Mark& mark, const std::string& text) {
-    problems_.add(at(mark), text);
+  [[noreturn]] void too_much(const std::string& text) {
+    problems_.add(last_, text);
     throw TooMuch();
   }
 
-  void finish(Yaml&& value, YAML::anchor_t anchor) {
-    if (++values_ > max_values)
-      too_much(YAML::Mark::null_mark(), "the text holds more than " + std::to_string(max_values) + " values");
+  void finish(Yaml&& value, std::string_view anchor) {
+    if (++values_ > max_values) too_much("the text holds more than " + std::to_string(max_values) + " values");
     if (value.children.empty() && value.text.empty() && ++empty_values_ > max_empty_values)
-      too_much(YAML::Mark::null_mark(), "more than " + std::to_string(max_empty_values) + " values are empty");
-    if (values_ > max_short_values + pieces_.read() / min_bytes_each)
-      too_much(YAML::Mark::null_mark(), "more than " + std::to_string(max_short_values) +
-                                            " values stand so close that " + "each takes less than " +
-                                            std::to_string(min_bytes_each) + " bytes");
-    if (anchor != 0) keep(anchor, value);
+      too_much("more than " + std::to_string(max_empty_values) + " values are empty");
+    if (values_ > max_short_values + events_.bytes() / min_bytes_each)
+      too_much("more than " + std::to_string(max_short_values) + " values stand so close that each takes less than " +
+               std::to_string(min_bytes_each) + " bytes");
+    if (!anchor.empty()) keep(std::string(anchor), value);
     if (open_.empty()) {
       root_ = std::move(value);
       return;
@@ -164,13 +177,13 @@ class Builder : public YAML::EventHandler {
   }
 
   // anchors inside anchored values multiply
-  void keep(YAML::anchor_t anchor, const Yaml& value) {
+  void keep(const std::string& anchor, const Yaml& value) {
     anchored_values_ += count(value);
     if (anchored_values_ > max_aliased) {
       problems_.add(value.where, "anchors name more than " + std::to_string(max_aliased) + " values");
       throw TooMuch();
     }
-    anchored_.emplace(anchor, value);
+    anchored_.insert_or_assign(anchor, value);
   }
 
   void add_entry(Open& mapping, Yaml&& value) {
@@ -183,7 +196,7 @@ class Builder : public YAML::EventHandler {
       problems_.add(key.where, "merge key '<<' is not supported; write the keys out, or use a profile");
       return;
     }
-    if (!mapping.keys.insert(key.text).second) {
+    if (!mapping.keys.add(key.text, mapping.value.children)) {
       const Yaml* first = mapping.value.find(key.text);
       problems_.add(key.where, "key '" + key.text + "' appears twice in one mapping; keep one",
                     {{first->key_where, "first here"}});
@@ -194,29 +207,16 @@ class Builder : public YAML::EventHandler {
     mapping.value.children.push_back(std::move(value));
   }
 
-  std::shared_ptr<const Source> source_;
-  TextPieces& pieces_;
+  YamlEvents& events_;
   Problems& problems_;
-  Location last_{source_, 1, 1};
+  Location last_;
   Yaml root_;
   std::vector<Open> open_;
-  std::map<YAML::anchor_t, Yaml> anchored_;
+  std::map<std::string, Yaml, std::less<>> anchored_;
   std::size_t values_ = 0, empty_values_ = 0;
   std::size_t aliased_ = 0;          // values that aliases stand for
   std::size_t anchored_values_ = 0;  // values that anchors keep
 };
-
-// yaml-cpp takes a tab in front of a line for anything but what it is.
-void refuse_syntax(const Location& where, const std::string& reason, Problems& problems) {
-  const std::string_view line = line_of(*where.source, where.line);
-  const std::size_t tab = line.substr(0, line.find_first_not_of(" \t")).find('\t');
-  if (tab == std::string_view::npos) return problems.add(where, "not valid YAML: " + reason);
-  const int column = static_cast<int>(tab) + 1;
-  std::vector<Note> notes;
-  if (column != where.column) notes.push_back({where, "where it can't be read on: " + reason});
-  problems.add({where.source, where.line, column}, "not valid YAML: a tab can't indent a line; indent with blanks",
-               std::move(notes));
-}
 
 }  // namespace
 
@@ -237,32 +237,24 @@ std::string_view kind_name(const Yaml& yaml) {
 }
 
 Yaml read_yaml(const std::shared_ptr<const Source>& source, Problems& problems) {
+  Yaml root;
+  root.where = {source, 1, 1};
   if (source->text.size() > max_source_bytes) {
-    problems.add({source, 1, 1}, "the text is larger than " + std::to_string(max_source_bytes >> 20) + " MiB");
-    return {};
+    problems.add(root.where, "the text is larger than " + std::to_string(max_source_bytes >> 20) + " MiB");
+    return root;
   }
-  TextPieces pieces(source->text);
-  Builder builder(source, pieces, problems);
-  std::istream stream(&pieces);
+  YamlEvents events(source, problems);
   try {
-    YAML::Parser parser(stream);
-    if (!parser.HandleNextDocument(builder)) {
-      Yaml empty;
-      empty.where = {source, 1, 1};
-      return empty;
-    }
-    Yaml root = builder.take();
-    Builder second(source, pieces, problems);
-    if (parser.HandleNextDocument(second)) {
-      problems.add(second.take().where, "a second document begins here; a file holds one");
+    events.next();  // the begin of the stream
+    if (events.next().type != YAML_DOCUMENT_START_EVENT) return root;
+    root = Builder(events, problems).read();
+    if (events.next().type == YAML_DOCUMENT_START_EVENT) {
+      events.next();
+      problems.add(events.where(), "a second document begins here; a file holds one");
     }
     return root;
-  } catch (const YAML::Exception& error) {
-    const bool known = !error.mark.is_null();
-    refuse_syntax({source, known ? error.mark.line + 1 : 1, known ? error.mark.column + 1 : 1}, error.msg, problems);
-  } catch (const TooMuch& much) {
-    if (much.ahead) builder.report_too_far_ahead();  // else it was reported where it was found
-  }
+  } catch (const NotYaml&) {
+  } catch (const TooMuch&) {}
   return {};
 }
 

@@ -1,4 +1,4 @@
-// A strict tree of a YAML text: what yaml-cpp lets pass silently is an error here.
+// A strict tree of a YAML text: what parsers let pass silently is an error here.
 #pragma once
 
 #include <string>

@@ -53,7 +53,7 @@ const std::vector<std::string> brought_about_elsewhere{
     // what a task throws: tests/graph/values/sequence_test.cpp
     " of a sequence of ",
     // megabytes of text, no text at all: tests/graph/language/yaml_test.cpp
-    "the text holds more than ", " values stand so close that ", "each takes less than ", " values are empty",
+    "the text holds more than ", " values stand so close that each takes less than ", " values are empty",
     "the text is larger than ", "it is a directory", "it is larger than ",
     "it is no regular file; give - for what comes on stdin",
     "what follows here is too long for one line, text, comment or nest of brackets: more than ", " MiB or ",

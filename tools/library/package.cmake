@@ -16,7 +16,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # and what find_package(jarol) needs to build a project: the compiler that built jarol, as plugins of another are refused,
 # and the libraries that are linked
 set(needs cmake make doctest-dev libcapstone-dev libdw-dev libeigen3-dev libfmt-dev liblz4-dev libsodium-dev libxxhash-dev
-  libyaml-cpp-dev libzstd-dev nlohmann-json3-dev)
+  libyaml-dev libzstd-dev nlohmann-json3-dev)
 if(JAROL_VEHICLES)
   list(APPEND needs libsimbody-dev)
 endif()

@@ -9,6 +9,7 @@
 #include <sodium/version.h>
 #include <sqlite3.h>
 #include <xxhash.h>
+#include <yaml.h>
 #include <zstd.h>
 
 #include <boost/version.hpp>
@@ -27,11 +28,12 @@ constexpr char compiler[] = "g++ " __VERSION__;
 // those that CMake does not know the versions of
 std::string other_libraries() {
   return fmt::format(
-      "Boost {}.{}, oneTBB {}.{}, SQLite {}, lz4 {}, zstd {}, xxHash {}.{}.{}, sodium {}, Capstone {}.{}, elfutils {}, "
+      "libyaml {}, Boost {}.{}, oneTBB {}.{}, SQLite {}, lz4 {}, zstd {}, xxHash {}.{}.{}, sodium {}, Capstone {}.{}, "
+      "elfutils {}, "
       "Graphviz {}",
-      BOOST_VERSION / 100'000, BOOST_VERSION / 100 % 1'000, TBB_VERSION_MAJOR, TBB_VERSION_MINOR, SQLITE_VERSION,
-      LZ4_VERSION_STRING, ZSTD_VERSION_STRING, XXH_VERSION_MAJOR, XXH_VERSION_MINOR, XXH_VERSION_RELEASE,
-      SODIUM_VERSION_STRING, CS_API_MAJOR, CS_API_MINOR, _ELFUTILS_VERSION, PACKAGE_VERSION);
+      yaml_get_version_string(), BOOST_VERSION / 100'000, BOOST_VERSION / 100 % 1'000, TBB_VERSION_MAJOR,
+      TBB_VERSION_MINOR, SQLITE_VERSION, LZ4_VERSION_STRING, ZSTD_VERSION_STRING, XXH_VERSION_MAJOR, XXH_VERSION_MINOR,
+      XXH_VERSION_RELEASE, SODIUM_VERSION_STRING, CS_API_MAJOR, CS_API_MINOR, _ELFUTILS_VERSION, PACKAGE_VERSION);
 }
 
 }  // namespace
