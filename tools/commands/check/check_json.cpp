@@ -72,12 +72,12 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
     chains.push_back({{"name", c.chain.name},
                       {"exact", c.latency.exact},
                       {"max_reaction_ns", c.latency.max_reaction},
-                      {"min_reaction_ns", c.latency.min_reaction},
+                      {"min_reaction_ns", c.latency.exact ? Json(c.latency.min_reaction) : Json(nullptr)},
                       {"max_age_ns", c.latency.max_age},
-                      {"jitter_ns", c.latency.jitter},
+                      {"jitter_ns", c.latency.exact ? Json(c.latency.jitter) : Json(nullptr)},
                       {"reaction_limit_ns", c.chain.reaction ? Json(c.chain.reaction->count()) : Json(nullptr)},
                       {"age_limit_ns", c.chain.age ? Json(c.chain.age->count()) : Json(nullptr)},
-                      {"holds", holds(c)}});
+                      {"holds", c.latency.exact || holds(c) ? Json(holds(c)) : Json(nullptr)}});
   const Platform& platform = r.graph->platform;
   auto suggestions = Json::array();
   for (const Remedy& remedy : r.remedies) suggestions.push_back(remedy.text);

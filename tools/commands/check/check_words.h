@@ -7,6 +7,9 @@
 
 namespace jarol::tools {
 
+/// Nanoseconds, as in 1ms.
+inline std::string duration(std::int64_t ns) { return duration_text(Duration(ns)); }
+
 /// Does the chain keep its limits?
 bool holds(const ReportedChain& chain);
 
