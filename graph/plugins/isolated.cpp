@@ -73,7 +73,7 @@ std::vector<isolation::Verdict> verify_tasks(const Registry& registry, const std
 void check_isolation(const GraphSpec& spec, const Registry& registry, const std::vector<std::string>& types,
                      const std::string& plugin, Problems& problems) {
   static constexpr PluginBuild ours = build_of_this_file();
-  if (ours.address_sanitizer != 0 || ours.thread_sanitizer != 0) return;
+  if (ours.options.address_sanitizer != 0 || ours.options.thread_sanitizer != 0) return;
   std::vector<std::string> promised;
   for (const std::string& type : types)
     if (std::any_of(spec.tasks.begin(), spec.tasks.end(),

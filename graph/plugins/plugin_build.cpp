@@ -5,33 +5,10 @@
 namespace jarol {
 namespace {
 
-BuildOptions options_of(const PluginBuild& build) {
-  BuildOptions options;
-  options.cxx11_strings = build.cxx11_strings;
-  options.debug_containers = build.debug_containers;
-  options.packed_structs = build.packed_structs;
-  options.short_enums = build.short_enums;
-  options.fast_math = build.fast_math;
-  options.x87_math = build.x87_math;
-  options.address_sanitizer = build.address_sanitizer;
-  options.thread_sanitizer = build.thread_sanitizer;
-  return options;
-}
-
 // What has another size for reasons that have no name here.
 struct Layout {
-  std::int32_t PluginBuild::*bytes;
+  std::int32_t theirs, ours;
   const char* of;
-};
-constexpr Layout layouts[] = {
-    {&PluginBuild::long_double, "a long double"},
-    {&PluginBuild::wide_char, "a wchar_t"},
-    {&PluginBuild::eigen_alignment, "the alignment of Eigen's vectors (-march, or EIGEN_MAX_ALIGN_BYTES)"},
-    {&PluginBuild::task_class, "a task's class"},
-    {&PluginBuild::type, "a value's type"},
-    {&PluginBuild::sequence, "a sequence"},
-    {&PluginBuild::string, "a string"},
-    {&PluginBuild::registry, "the registry"},
 };
 
 }  // namespace
@@ -42,13 +19,22 @@ std::string find_difference(const PluginBuild& plugin, const PluginBuild& progra
            std::to_string(program.form);
   const std::string_view by(plugin.compiler, strnlen(plugin.compiler, sizeof plugin.compiler));
   if (by != program.compiler) return "by " + std::string(by) + ", this program by " + program.compiler;
-  if (std::string option = find_other_switch(options_of(plugin), options_of(program)); !option.empty()) return option;
-  for (const Layout& layout : layouts) {
-    const std::int32_t theirs = plugin.*layout.bytes, ours = program.*layout.bytes;
-    if (theirs != ours)
-      return std::string("with options that give ") + layout.of + " " + std::to_string(theirs) + " bytes instead of " +
-             std::to_string(ours);
-  }
+  if (std::string option = find_other_switch(plugin.options, program.options); !option.empty()) return option;
+  const Layout layouts[] = {
+      {plugin.options.long_double, program.options.long_double, "a long double"},
+      {plugin.options.wide_char, program.options.wide_char, "a wchar_t"},
+      {plugin.eigen_alignment, program.eigen_alignment,
+       "the alignment of Eigen's vectors (-march, or EIGEN_MAX_ALIGN_BYTES)"},
+      {plugin.task_class, program.task_class, "a task's class"},
+      {plugin.type, program.type, "a value's type"},
+      {plugin.sequence, program.sequence, "a sequence"},
+      {plugin.string, program.string, "a string"},
+      {plugin.registry, program.registry, "the registry"},
+  };
+  for (const Layout& layout : layouts)
+    if (layout.theirs != layout.ours)
+      return std::string("with options that give ") + layout.of + " " + std::to_string(layout.theirs) +
+             " bytes instead of " + std::to_string(layout.ours);
   return "";
 }
 

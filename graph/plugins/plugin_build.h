@@ -13,10 +13,9 @@ namespace jarol {
 /// Members of four bytes and bytes alone: no option of a compiler changes where they lie.
 struct PluginBuild {
   char magic[16] = {'j', 'a', 'r', 'o', 'l', ' ', 'p', 'l', 'u', 'g', 'i', 'n', ' ', 'o', 'f', ':'};
-  std::int32_t form = 10;  // grows with every change of this interface
-  std::int32_t cxx11_strings = 0, debug_containers = 0, packed_structs = 0, short_enums = 0;
-  std::int32_t fast_math = 0, x87_math = 0, address_sanitizer = 0, thread_sanitizer = 0;
-  std::int32_t long_double = 0, wide_char = 0, eigen_alignment = 0;               // bytes
+  std::int32_t form = 11;  // grows with every change of this interface
+  BuildOptions options{};
+  std::int32_t eigen_alignment = 0;                                               // bytes
   std::int32_t task_class = 0, type = 0, sequence = 0, string = 0, registry = 0;  // bytes
   char compiler[64] = {};
 };
@@ -25,17 +24,7 @@ struct PluginBuild {
 namespace {
 consteval PluginBuild build_of_this_file() {
   PluginBuild build;
-  constexpr BuildOptions options = options_of_this_file();
-  build.cxx11_strings = options.cxx11_strings;
-  build.debug_containers = options.debug_containers;
-  build.packed_structs = options.packed_structs;
-  build.short_enums = options.short_enums;
-  build.fast_math = options.fast_math;
-  build.x87_math = options.x87_math;
-  build.address_sanitizer = options.address_sanitizer;
-  build.thread_sanitizer = options.thread_sanitizer;
-  build.long_double = options.long_double;
-  build.wide_char = options.wide_char;
+  build.options = options_of_this_file();
   build.eigen_alignment = alignof(Eigen::Vector4d);
   build.task_class = sizeof(TaskClass);
   build.type = sizeof(Type);

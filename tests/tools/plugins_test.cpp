@@ -74,7 +74,7 @@ connections: [a.out -> b.in]
     CHECK(report_on("nowhere") == "there is no file '" + library("nowhere") + "'");
     CHECK(report_on("none") ==
           "is no shared library with tasks; name them with JAROL_PLUGIN, see graph/plugins/plugin.h");
-    CHECK(report_on("old") == "was built for form 3 of the interface, this is form 10" + again);
+    CHECK(report_on("old") == "was built for form 3 of the interface, this is form 11" + again);
     CHECK(report_on("clash") == "brings a task type 'Counter', which there is already");
   }
 
@@ -96,14 +96,19 @@ connections: [a.out -> b.in]
       other.*number = value;
       return find_difference(other, ours);
     };
-    CHECK(with(&PluginBuild::packed_structs, 1) == "with -fpack-struct");
-    CHECK(with(&PluginBuild::x87_math, 1) == "with -mfpmath=387, so that it computes otherwise");
-    CHECK(with(&PluginBuild::address_sanitizer, 1 - ours.address_sanitizer) ==
-          (ours.address_sanitizer != 0 ? "without the address sanitizer" : "with the address sanitizer"));
-    CHECK(with(&PluginBuild::thread_sanitizer, 1 - ours.thread_sanitizer) ==
-          (ours.thread_sanitizer != 0 ? "without the thread sanitizer" : "with the thread sanitizer"));
-    CHECK(with(&PluginBuild::long_double, 8) == "with options that give a long double 8 bytes instead of 16");
-    CHECK(with(&PluginBuild::wide_char, 2) == "with options that give a wchar_t 2 bytes instead of 4");
+    const auto with_option = [&](std::int32_t BuildOptions::*number, std::int32_t value) {
+      PluginBuild other = ours;
+      other.options.*number = value;
+      return find_difference(other, ours);
+    };
+    CHECK(with_option(&BuildOptions::packed_structs, 1) == "with -fpack-struct");
+    CHECK(with_option(&BuildOptions::x87_math, 1) == "with -mfpmath=387, so that it computes otherwise");
+    CHECK(with_option(&BuildOptions::address_sanitizer, 1 - ours.options.address_sanitizer) ==
+          (ours.options.address_sanitizer != 0 ? "without the address sanitizer" : "with the address sanitizer"));
+    CHECK(with_option(&BuildOptions::thread_sanitizer, 1 - ours.options.thread_sanitizer) ==
+          (ours.options.thread_sanitizer != 0 ? "without the thread sanitizer" : "with the thread sanitizer"));
+    CHECK(with_option(&BuildOptions::long_double, 8) == "with options that give a long double 8 bytes instead of 16");
+    CHECK(with_option(&BuildOptions::wide_char, 2) == "with options that give a wchar_t 2 bytes instead of 4");
     CHECK(with(&PluginBuild::eigen_alignment, 64) ==
           "with options that give the alignment of Eigen's vectors (-march, or EIGEN_MAX_ALIGN_BYTES) 64 bytes "
           "instead of " +

@@ -31,7 +31,7 @@ void build_again(const std::string& from, const std::string& to) {
 // What sanitizers add offends, and is not looked at.
 bool is_sanitized() {
   constexpr PluginBuild ours = build_of_this_file();
-  return ours.address_sanitizer != 0 || ours.thread_sanitizer != 0;
+  return ours.options.address_sanitizer != 0 || ours.options.thread_sanitizer != 0;
 }
 
 // What is said of a plugin, which is loaded beside all that are.
