@@ -15,7 +15,7 @@ RecordingWriter::RecordingWriter(std::string path, RecordingHeader header, std::
     header_.inputs.push_back({graph.communicators[i].name, signature_of(*graph.communicators[i].type)});
   for (const Task& task : graph.tasks) header_.tasks.push_back(task.name);
   add_inputs(graph);
-  if (header_.what != "inputs") add_publications(graph, truths);
+  add_publications(graph, truths);
   recorder_ = std::make_unique<Recorder>(std::vector<RecordSink*>{&*inputs_});
 }
 

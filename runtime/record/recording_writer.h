@@ -29,8 +29,8 @@ class RecordingWriter {
 
   /// For ExecutorOptions::log.
   Recorder* recorder() { return recorder_.get(); }
-  /// For the recorder of publications; null: none are recorded.
-  RecordSink* publications() { return publications_ ? &*publications_ : nullptr; }
+  /// For the recorder of publications, of which it records those that `what` says, and what happens beside them.
+  RecordSink* publications() { return &*publications_; }
 
   /// Before the run, when nothing else stands against it: makes the file, or replaces a recording. Throws
   /// std::runtime_error, "can't write 'path': reason".
@@ -49,7 +49,7 @@ class RecordingWriter {
   /// Of a part that went on as the next one could not be made, and why; empty: all were made. After `close`.
   const std::string& stayed() const { return parts_.stayed(); }
   /// Published values that came faster than the disk took them, on the real clock.
-  std::uint64_t dropped() const { return publications_ ? publications_->dropped() : 0; }
+  std::uint64_t dropped() const { return publications_->dropped(); }
 
  private:
   enum BesideInputs : std::size_t { end_topic, checkpoint_topic, ended_topic };

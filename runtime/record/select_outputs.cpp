@@ -31,7 +31,7 @@ std::vector<SelectedOutput> select_outputs(const Graph& graph, const std::string
     const auto& [period, phase] = timing.at(output.name);
     outputs.push_back({output, period, phase, what == "all"});
   }
-  if (what == "all") return outputs;
+  if (what == "all" || what == "inputs") return outputs;
   std::istringstream words(what + ",");
   for (std::string word; std::getline(words, word, ',');) {
     bool fits = false;

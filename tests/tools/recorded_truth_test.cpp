@@ -82,6 +82,21 @@ TEST_SUITE("tools/recorded_truth") {
           std::string::npos);
   }
 
+  TEST_CASE("what became of a vehicle stands in a recording of inputs alone, too") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "inputs.mcap";
+    const auto run = command::run_jarol(
+        "run specs/javiator.yaml --set expect=nothing "
+        "--set 'distributers.robostix.link.parameters.failures.front={kind: lost, at: 9}' --log " +
+            file,
+        "2>&1 >/dev/null");
+    CHECK(run.exit_code == 1);
+    REQUIRE(run.output.starts_with("error: the vehicle of 'robostix' has crashed: "));
+    const auto replay = command::run_jarol("replay " + file, "2>&1 >/dev/null");
+    CHECK(replay.exit_code == 1);
+    CHECK(replay.output == run.output);
+  }
+
   TEST_CASE("recordings differ where vehicles truly moved otherwise, though nobody has measured it yet") {
     const TemporaryFolder folder;
     const auto record = [&](const std::string& name, const std::string& failure) {

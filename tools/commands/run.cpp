@@ -130,7 +130,7 @@ int run(RunOptions options) {
   std::vector<RecordSink*> looking_on = files.sinks();
   noted.add_to(looking_on);
   what_ifs.add_to(looking_on);
-  if (log && log->publications() != nullptr) looking_on.push_back(log->publications());
+  if (log) looking_on.push_back(log->publications());
   const std::unique_ptr<Pace> pace = pace_of(options);
   const std::unique_ptr<console::Console> console =
       make_console(options, loaded, end, types_of_truth(loaded), pace.get());
