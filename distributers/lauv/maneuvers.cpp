@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -273,6 +274,16 @@ Maneuver make_maneuver(const messages::InlineMessage& message, const Origin& ori
                                                                                          made))
     refuse(fmt::format("{} is not flown here", opened.descriptor()->name));
   return made;
+}
+
+bool needs_place(const Maneuver& maneuver) {
+  const auto goes_by_it = [](const PlannedLeg& each) {
+    const Course course = each.leg.course;
+    if (each.here && each.leg.until_level) return false;  // up or down from wherever it is
+    return course == Course::line || course == Course::circle || course == Course::station;
+  };
+  return maneuver.type == imc::FollowReference::message_id ||
+         std::any_of(maneuver.legs.begin(), maneuver.legs.end(), goes_by_it);
 }
 
 }  // namespace jarol::distributers

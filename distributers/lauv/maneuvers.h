@@ -44,4 +44,7 @@ void set_speed(tasks::Leg& leg, double speed, std::uint8_t units, const FlightLi
 /// Throws std::invalid_argument that says what can't be flown.
 Maneuver make_maneuver(const messages::InlineMessage& message, const Origin& origin, const FlightLimits& limits = {});
 
+/// Does it go by where the vehicle is? One that comes up for a fix does not.
+bool needs_place(const Maneuver& maneuver);
+
 }  // namespace jarol::distributers

@@ -51,7 +51,8 @@ struct LauvOperatorParameters {
 /// stick that rests counts for nothing, as the vehicle's DUNE has it: only in its Teleoperation does a hand steer, and
 /// nobody has to be heard. Another who has the link now is the operator from when it commands: until then it is the one
 /// before that is silent. What is asked is answered at the next instant. While the vehicle is brought to rest at the
-/// end of a run no plan begins; a stop is obeyed in place of what brings it there.
+/// end of a run no plan begins; a stop is obeyed in place of what brings it there. Nor does one that goes by places
+/// while nobody knows where the vehicle is.
 class LauvOperator {
  public:
   static constexpr std::string_view summary = "the submarine's operator, over IMC";
@@ -81,7 +82,8 @@ class LauvOperator {
                       channel<&Out::motion>("the vehicle's motion as it came"),
                       channel<&Out::stream>("how the water moves, as the vehicle estimates it"),
                       channel<&Out::progress>("how far it is on a leg of its plan"),
-                      channel<&Out::instruments>("altitude and origin, of what its instruments report"));
+                      channel<&Out::instruments>(
+                          "altitude and origin, and whether its place is known, of what its instruments report"));
     }
   };
 
@@ -211,6 +213,7 @@ class LauvOperator {
   tasks::Stream stream_;      // likewise
   tasks::Reading altitude_;   // likewise
   Duration altitude_at_{};    // when it came
+  bool placeless_ = false;    // it has reported, and no fix yet
   bool motion_sent_ = false;  // by channel `motion`, which has more than `report`
   bool mode_changed_ = true;
   std::optional<std::int64_t> second_;  // told for it

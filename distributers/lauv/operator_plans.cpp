@@ -104,6 +104,8 @@ std::string LauvOperator::execute(Plan plan) {
   if (ending_) return std::string(run_ends);
   if (mode_ == Mode::error) return "just aborted";
   if (alarm_ != tasks::Alarm::none) return fmt::format("the vehicle comes up: {}", name_of(alarm_));
+  if (placeless_ && needs_place(plan.maneuvers[plan.start]))
+    return "GPS has given no fix yet: nobody knows where the vehicle is";
   plan_.stop("");
   plan_.start(std::move(plan), motion_, now_);
   log(imc::LogBookEntry::Type::INFO, fmt::format("plan '{}' begins", plan_.name()));

@@ -105,6 +105,9 @@ imc::EntityState LauvOperator::state_of(std::uint8_t entity) const {
   } else if (entity == operator_entity && mode_ == Mode::error) {
     state.state = State::ERROR;
     state.description = "abort";
+  } else if (entity == navigation_entity && placeless_) {
+    state.state = State::BOOT;
+    state.description = "no fix of GPS yet: its place is not known";
   }
   return state;
 }
@@ -237,6 +240,7 @@ void LauvOperator::send_stream(const tasks::Stream& stream, messages::Receiver& 
 void LauvOperator::note_instruments(const tasks::Instruments& instruments, messages::Receiver&) {
   if (instruments.altitude.count != altitude_.count) altitude_at_ = now_;
   altitude_ = instruments.altitude;
+  placeless_ = instruments.place.count < 1;
   const bool moved = instruments.latitude != origin_.latitude || instruments.longitude != origin_.longitude;
   if (instruments.place.count > 0 && moved) move_origin({instruments.latitude, instruments.longitude});
 }

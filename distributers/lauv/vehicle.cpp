@@ -143,6 +143,9 @@ void LauvVehicle::velocity(const imc::WaterVelocity& m, const messages::MessageR
 
 void LauvVehicle::rpm(const imc::Rpm& m, const messages::MessageRef& from) {
   note(&Instruments::rpm, parameters_.rpm, from, m.value);
+  // where others drive it, it turns as they want
+  if (!steers_itself() && is(parameters_.rpm, from))
+    in.servos.renew().propeller = {in.instruments->rpm.value, sent_.thruster, in.instruments->rpm.count};
 }
 
 void LauvVehicle::fix(const imc::GpsFix& m, const messages::MessageRef& from) {
@@ -236,13 +239,13 @@ void LauvVehicle::range(const imc::LblRange& m, const messages::MessageRef& from
 
 // Of one fin, beside where it was sent last.
 void LauvVehicle::servo(const imc::ServoPosition& m, const messages::MessageRef& from) {
-  if (m.id >= sent_fins_.size() || !is(parameters_.servos, from)) return;
+  if (m.id >= sent_.fins.size() || !is(parameters_.servos, from)) return;
   double angle = m.value;
   if (Entities::sender_of(from) != Entities::nobody) angle *= parameters_.servos.scale;
   if (!all_finite({angle})) return;
   tasks::ServoReading& r = in.servos.renew().fins[m.id];
   // where others send it, it goes as they want
-  r = {angle, steers_itself() ? angle : sent_fins_[m.id], std::max<std::int64_t>(r.count, 0) + 1};
+  r = {angle, steers_itself() ? angle : sent_.fins[m.id], std::max<std::int64_t>(r.count, 0) + 1};
 }
 
 void LauvVehicle::announce(Duration instant, messages::Receiver& all) {
@@ -262,7 +265,7 @@ bool LauvVehicle::steers_itself() const { return steers_itself_ && reached_ - *s
 void LauvVehicle::send_actuation(const tasks::Actuation& actuation, messages::Receiver& system) {
   if (steers_itself()) return;
   system.receive(messages::refer_to(imc::SetThrusterActuation{0, static_cast<float>(actuation.thruster)}));
-  sent_fins_ = actuation.fins;
+  sent_ = actuation;
   for (std::uint8_t i = 0; i < actuation.fins.size(); ++i)
     system.receive(messages::refer_to(imc::SetServoPosition{i, static_cast<float>(actuation.fins[i])}));
 }

@@ -77,9 +77,10 @@ class LauvVehicle {
     Newest<tasks::Instruments> instruments;
     Newest<tasks::Servos> servos;
     static constexpr auto fields() {
-      return describe(channel<&In::motion>("position, attitude and velocities"),
-                      channel<&In::instruments>("what the instruments report"),
-                      channel<&In::servos>("where the fins are, and where they were sent"));
+      return describe(
+          channel<&In::motion>("position, attitude and velocities"),
+          channel<&In::instruments>("what the instruments report"),
+          channel<&In::servos>("where the fins are and how fast the propeller is, and what they were sent"));
     }
   };
   struct Out {
@@ -113,8 +114,7 @@ class LauvVehicle {
   std::uint64_t non_finite_inputs() const { return non_finite_inputs_; }
   /// Without what concerns a link to elsewhere.
   void serialize(Archive& archive) {
-    archive(entities_, leaks_, label_lacks_, asked_, non_finite_inputs_, beacons_, sent_fins_, reached_,
-            steers_itself_);
+    archive(entities_, leaks_, label_lacks_, asked_, non_finite_inputs_, beacons_, sent_, reached_, steers_itself_);
   }
 
   In in;
@@ -176,7 +176,7 @@ class LauvVehicle {
   std::optional<Duration> asked_;
   std::uint64_t non_finite_inputs_ = 0;
   std::array<Beacon, 2> beacons_{};
-  std::array<double, 4> sent_fins_{};
+  tasks::Actuation sent_{};
   Duration reached_{};                     // instant
   std::optional<Duration> steers_itself_;  // when it last said so
   std::string address_;

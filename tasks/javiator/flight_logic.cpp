@@ -32,8 +32,7 @@ bool lacks_lift(const FlightLogic::Param& p, const FlightLogic::In& in, const Fl
 }
 
 // Why it can't go on flying as it is commanded, if so.
-Cause find_cause(const FlightLogic::Param& p, const FlightLogic::In& in, bool wants_position, double unheard,
-                 double without_lift) {
+Cause find_cause(const FlightLogic::Param& p, const FlightLogic::In& in, bool wants_position, double unheard) {
   const FlightEstimate& e = in.estimate;
   if (in.motors.weak != Motor::none) return Cause::motor_weak;
   if (const Cause lean = find_lean(p, e); lean != Cause::none) return lean;
@@ -47,7 +46,6 @@ Cause find_cause(const FlightLogic::Param& p, const FlightLogic::In& in, bool wa
   if (e.battery == 0) return Cause::bmu_lost;  // which measures it, and never has
   if (e.battery < p.battery_limit) return Cause::battery_low;
   if (wants_position && !e.position_known) return Cause::position_lost;
-  if (without_lift > p.lift_patience) return Cause::no_lift;
   return Cause::none;
 }
 
@@ -124,7 +122,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   trim(command, e, state.trim, d);
 
   if (d.state == FlightState::starting) {
-    const Cause cause = find_cause(p, in, wants_position, state.unheard, state.without_lift);
+    const Cause cause = find_cause(p, in, wants_position, state.unheard);
     if (cause != Cause::none) {
       enter(FlightState::ground, cause, state, d);
     } else if (state.since >= p.spin_up) {
@@ -133,7 +131,8 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   }
   if (d.state == FlightState::flying) {
     state.without_lift = lacks_lift(p, in, d) ? state.without_lift + dt : 0;
-    const Cause cause = find_cause(p, in, wants_position, state.unheard, state.without_lift);
+    Cause cause = find_cause(p, in, wants_position, state.unheard);
+    if (cause == Cause::none && state.without_lift > p.lift_patience) cause = Cause::no_lift;
     const bool leans = cause == Cause::roll || cause == Cause::pitch;
     if (leans && measures_lean(e) && e.altitude_known && e.altitude < p.tips_below) {
       // it goes on over its feet, and thrust would only throw it
@@ -148,7 +147,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
     d.hold_position = e.position_known;
     // what fails only now is reported, too; that nobody is heard any more is nothing then
     if (d.cause == Cause::none || d.cause == Cause::operator_lost)
-      if (const Cause cause = find_cause(p, in, wants_position, 0, 0); cause != Cause::none) d.cause = cause;
+      if (const Cause cause = find_cause(p, in, wants_position, 0); cause != Cause::none) d.cause = cause;
     // once it descends, only the ground can stop it or take its weight
     const bool still = e.altitude_known && e.altitude < 0.5 && std::abs(e.climb) < p.still;
     state.still = still || in.lift.thrust < p.light ? state.still + dt : 0;

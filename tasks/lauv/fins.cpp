@@ -31,6 +31,19 @@ void look(const FinWatch::Param& p, std::size_t i, const ServoReading& servo, do
   state.fins.angles[i] = servo.angle;
 }
 
+void look(const FinWatch::Param& p, const PropellerReading& propeller, double dt, State& state) {
+  FinState& found = state.fins.propeller;
+  state.propeller_silence += dt;
+  if (propeller.count <= state.propeller_count || found == FinState::stuck) return;
+  const double since = state.propeller_count < 1 ? 0 : std::min(state.propeller_silence, p.silence);
+  state.propeller_count = propeller.count;
+  state.propeller_silence = 0;
+  const bool wrong = std::abs(propeller.speed / p.full_speed - propeller.commanded) > p.propeller_error;
+  state.propeller_wrong_for =
+      wrong ? state.propeller_wrong_for + since : std::max(state.propeller_wrong_for - since, 0.0);
+  found = state.propeller_wrong_for > p.propeller_time ? FinState::stuck : FinState::follows;
+}
+
 struct Pair {
   std::size_t first, second;
 };
@@ -44,6 +57,7 @@ constexpr std::array<double, 4> roll_sides{-1, 1, -1, 1};
 void FinWatch::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   if (in.contact.stops != state.stops) state = State{.stops = in.contact.stops};
   for (std::size_t i = 0; i < in.servos.fins.size(); ++i) look(p, i, in.servos.fins[i], seconds(tick.period), state);
+  look(p, in.servos.propeller, seconds(tick.period), state);
   out.fins = state.fins;
 }
 

@@ -1,4 +1,4 @@
-// The submarine's fins when one of them fails: what finds it, and what steers with the other three.
+// The submarine's fins when one of them fails: what finds it, and what steers with the other three. And its propeller.
 #pragma once
 
 #include <array>
@@ -14,21 +14,30 @@ namespace jarol::tasks {
 
 /// A sound servo is between where it is sent and where one that turns at `servo_rate` would be by now. One that is
 /// further out by more than `error` is wrong; wrong for `error_time` longer than it was right, it is stuck, until the
-/// operator demands a stop: then it is tried anew. A servo that has never reported is not checked.
+/// operator demands a stop: then it is tried anew. A servo that has never reported is not checked. So it is with a
+/// propeller that turns by more than `propeller_error` of its full speed otherwise than it is sent, for
+/// `propeller_time`: longer than the supervisor takes to find that its speed is reported wrong.
 struct FinWatch {
-  static constexpr std::string_view summary = "finds fins that do not go where they are sent";
+  static constexpr std::string_view summary =
+      "finds fins that do not go where they are sent, and a propeller that does not turn so";
   struct Param {
     double error = 3 * degree;
     double error_time = 0.3;
     double servo_rate = 200 * degree;
     double silence = 2.5;
+    double full_speed = 2500;
+    double propeller_error = 0.35;
+    double propeller_time = 8;
     static constexpr auto fields() {
       using P = Param;
       return describe(
           field<&P::error>("rad", "greatest difference of a servo and what its rate explains").in(0, max_fin_angle),
           field<&P::error_time>("s", "how long a greater one has to last").in(0, 60),
           field<&P::servo_rate>("rad/s", "at which a sound servo turns at least").in(0.1, 100),
-          field<&P::silence>("s", "a servo that has reported, and then does not for so long, is silent").in(0, 3600));
+          field<&P::silence>("s", "a servo that has reported, and then does not for so long, is silent").in(0, 3600),
+          field<&P::full_speed>("rpm", "of the propeller, at full thrust").in(1, 100000),
+          field<&P::propeller_error>("", "part of that by which it may differ from what it is sent").in(0, 2),
+          field<&P::propeller_time>("s", "how long it has to differ by more").in(0, 3600));
     }
   };
   struct In {
@@ -41,13 +50,19 @@ struct FinWatch {
     std::array<double, 4> silences{};
     std::array<double, 4> expected{};
     std::array<double, 4> wrong_for{};
+    std::int64_t propeller_count = 0;
+    double propeller_silence = 0;
+    double propeller_wrong_for = 0;
     FinCondition fins{};
     std::uint32_t stops = 0;
     static constexpr auto fields() {
       using S = State;
       return describe(field<&S::counts>("", "readings of each servo"), field<&S::silences>("s", "of each servo"),
                       field<&S::expected>("rad", "where one would be that turns at the least rate"),
-                      field<&S::wrong_for>("s", "less what it was right since"), field<&S::fins>(),
+                      field<&S::wrong_for>("s", "less what it was right since"),
+                      field<&S::propeller_count>("", "readings of its speed"),
+                      field<&S::propeller_silence>("s", "since the last one"),
+                      field<&S::propeller_wrong_for>("s", "less what it was right since"), field<&S::fins>(),
                       field<&S::stops>("", "of the operator, up to now"));
     }
   };

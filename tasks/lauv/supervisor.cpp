@@ -140,17 +140,19 @@ Alarm find_liar(const Param& p, const Instruments& i, double dt, State& state) {
 
 bool is_low(const Param& p, const Reading& voltage) { return voltage.count > 0 && voltage.value < p.min_voltage; }
 
-// A battery that is flat stops every servo, so the next reading of its voltage is waited for.
-Alarm find_fin(const Param& p, const LauvSupervisor::In& in, State& state) {
+// A battery that is flat stops propeller and servos, so the next reading of its voltage is waited for.
+Alarm find_actuator(const Param& p, const LauvSupervisor::In& in, State& state) {
   constexpr Alarm alarms[] = {Alarm::bottom_fin, Alarm::port_fin, Alarm::starboard_fin, Alarm::top_fin};
   const Reading& voltage = in.instruments.voltage;
-  for (std::size_t i = 0; p.fins_end_dive && i < in.fins.states.size(); ++i) {
-    if (in.fins.states[i] != FinState::stuck && in.fins.states[i] != FinState::silent) continue;
-    if (voltage.count > 0 && voltage.count == state.voltages_before_fin) return Alarm::none;
-    return is_low(p, voltage) ? Alarm::voltage_limit : alarms[i];
+  Alarm found = in.fins.propeller == FinState::stuck ? Alarm::propeller : Alarm::none;
+  for (std::size_t i = in.fins.states.size(); p.fins_end_dive && i-- > 0;)
+    if (in.fins.states[i] == FinState::stuck || in.fins.states[i] == FinState::silent) found = alarms[i];
+  if (found == Alarm::none) {
+    state.voltages_before_failure = voltage.count;
+    return found;
   }
-  state.voltages_before_fin = voltage.count;
-  return Alarm::none;
+  if (voltage.count > 0 && voltage.count == state.voltages_before_failure) return Alarm::none;
+  return is_low(p, voltage) ? Alarm::voltage_limit : found;
 }
 
 Alarm find_exceeded(const Param& p, const LauvSupervisor::In& in) {
@@ -163,7 +165,8 @@ Alarm find_exceeded(const Param& p, const LauvSupervisor::In& in) {
   return Alarm::none;
 }
 
-// Without attitude and speed nothing can be steered; without GPS it is at the surface, and stays.
+// Without attitude and speed nothing can be steered, and without its propeller nothing driven; without GPS it is at the
+// surface, and stays.
 bool steerable(Alarm alarm) {
   switch (alarm) {
     case Alarm::attitude:
@@ -172,6 +175,7 @@ bool steerable(Alarm alarm) {
     case Alarm::pitch_limit:
     case Alarm::voltage_limit:
     case Alarm::gps:
+    case Alarm::propeller:
     case Alarm::no_vehicle:
     case Alarm::vehicle_lost: return false;
     case Alarm::none:
@@ -206,7 +210,7 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
   const Alarm leak = in.instruments.leak.value > 0.5 ? Alarm::leak : Alarm::none;
   if (state.alarm == Alarm::none || stopped) {
     Alarm found = Alarm::none;
-    for (const Alarm next : {leak, lost, liar, find_fin(p, in, state), find_exceeded(p, in)})
+    for (const Alarm next : {leak, lost, liar, find_actuator(p, in, state), find_exceeded(p, in)})
       if (found == Alarm::none) found = next;
     if (state.alarm == Alarm::none || found == Alarm::none) {
       state.alarm = found;

@@ -91,7 +91,7 @@ struct LauvSupervisor {
     bool heard = false;
     Alarm alarm = Alarm::none;
     double since_alarm = 0;
-    std::int64_t voltages_before_fin = 0;
+    std::int64_t voltages_before_failure = 0;
     std::int64_t fixes_at_alarm = 0;
     double depth_at_alarm = 0;
     std::uint32_t stops = 0;
@@ -107,11 +107,12 @@ struct LauvSupervisor {
       using S = State;
       return describe(
           field<&S::heard>("", "any instrument, up to now"), field<&S::alarm>(), field<&S::since_alarm>("s"),
-          field<&S::voltages_before_fin>("", "readings while all fins were sound"), field<&S::fixes_at_alarm>(),
-          field<&S::depth_at_alarm>("m", "by the gauge"), field<&S::stops>("", "of the operator, up to now"),
-          field<&S::surfaced>(), field<&S::counts>("", "of each instrument"),
-          field<&S::silences>("s", "of each instrument"), field<&S::since_fix>("s", "at the surface"),
-          field<&S::fixes>(), field<&S::wrong_for>("s", "each difference, for so long"), field<&S::attitude_started>(),
+          field<&S::voltages_before_failure>("", "readings while fins and propeller were sound"),
+          field<&S::fixes_at_alarm>(), field<&S::depth_at_alarm>("m", "by the gauge"),
+          field<&S::stops>("", "of the operator, up to now"), field<&S::surfaced>(),
+          field<&S::counts>("", "of each instrument"), field<&S::silences>("s", "of each instrument"),
+          field<&S::since_fix>("s", "at the surface"), field<&S::fixes>(),
+          field<&S::wrong_for>("s", "each difference, for so long"), field<&S::attitude_started>(),
           field<&S::speed_started>(), field<&S::floor_started>(), field<&S::theta>("rad", "that the rates add up to"),
           field<&S::psi>("rad", "that the rates add up to"), field<&S::speed>("m/s", "that the propeller gives"),
           field<&S::floor>("m", "depth of the sea floor"));

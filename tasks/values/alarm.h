@@ -31,13 +31,14 @@ enum class Alarm : std::uint8_t {
   port_fin,
   starboard_fin,
   top_fin,
+  propeller,
   no_vehicle,
   vehicle_lost
 };
 
 constexpr auto enumerators(Alarm) {
   using enum Alarm;
-  return std::array<Enumerator<Alarm>, 22>{
+  return std::array<Enumerator<Alarm>, 23>{
       {{"none", none},
        {"operator_lost", operator_lost, "it comes up, as the operator is silent"},
        {"depth_limit", depth_limit, "it comes up, as it is deeper than the limit"},
@@ -58,6 +59,7 @@ constexpr auto enumerators(Alarm) {
        {"port_fin", port_fin, "it comes up, as the port elevator is stuck or its servo silent"},
        {"starboard_fin", starboard_fin, "it comes up, as the starboard elevator is stuck or its servo silent"},
        {"top_fin", top_fin, "it comes up, as the top rudder is stuck or its servo silent"},
+       {"propeller", propeller, "it comes up, as the propeller does not turn as it is sent"},
        {"no_vehicle", no_vehicle, "nothing was heard of the vehicle yet; it begins when that is"},
        {"vehicle_lost", vehicle_lost, "it is to come up, as nothing arrives from the vehicle"}}};
 }

@@ -127,6 +127,20 @@ TEST_SUITE("tools/surfacing") {
 
   TEST_CASE("water in the hull ends the dive") { check_surfaces(dive_with("leak_at: 30s"), Alarm::leak, 32); }
 
+  TEST_CASE("a propeller that is lost, or can't be stopped, ends the dive, and the operator is told") {
+    const auto with = [](const std::string& failure, Duration time) {
+      return dive("specs/exolauv.yaml",
+                  {"distributers.dune.link.parameters={failures: {propeller: {" + failure + "}}, dynamics: rigid}"}, 0,
+                  time);
+    };
+    check_surfaces(with("kind: lost, at: 30", 160s), Alarm::propeller, 39);
+    // at the surface it goes on, at whatever speed that gives
+    const Dive ahead = with("kind: hardover, to: 1, at: 30", 120s);
+    CHECK(static_cast<int>(ahead.alarm) == static_cast<int>(Alarm::propeller));
+    CHECK(ahead.alarmed_at < 60);
+    CHECK(ahead.samples.back().motion.z < 0.3);
+  }
+
   TEST_CASE("a fin that goes hard over ends the dive, whichever it is and to whichever side, and it hardly sinks") {
     struct Fin {
       int number, to;

@@ -25,6 +25,10 @@ struct Reports : Conversation {
     m.lat = latitude;
     m.lon = longitude;
     m.speed = 1;
+    return start_of(m);
+  }
+  template <class M>
+  std::string start_of(const M& m) {
     imc::PlanControl request;
     request.plan_id = "p";
     request.arg = packed(m);
@@ -74,7 +78,11 @@ TEST_SUITE("distributers/lauv/operator_places") {
     tasks::Instruments found;
     REQUIRE(vehicle.take<&distributers::LauvVehicle::In::instruments>(found));
     Reports c;
-    c.report({});  // before it has found itself
+    tasks::Instruments nearby;  // of another vehicle at this link, before
+    nearby.latitude = LauvOperatorParameters{}.latitude;
+    nearby.longitude = LauvOperatorParameters{}.longitude;
+    nearby.place.count = 1;
+    c.report(nearby);
     CHECK(c.state().lat == LauvOperatorParameters{}.latitude);
     CHECK(c.start(latitude, longitude) == "its place is 308 km from the origin; places within 100 km are gone to");
     CHECK(c.start(LauvOperatorParameters{}.latitude, LauvOperatorParameters{}.longitude) == "");
@@ -104,5 +112,49 @@ TEST_SUITE("distributers/lauv/operator_places") {
     other.place.count = 1;
     c.report(other);
     CHECK(c.state().lat == 0.5);
+  }
+
+  TEST_CASE("without a fix nobody knows where it is: its navigation says so, and no plan begins that goes by places") {
+    const auto navigation = [](Reports& c) {
+      c.say(imc::QueryEntityState{});
+      c.pass(50ms);
+      std::vector<imc::EntityState> found;
+      for (const imc::EntityState& each : c.to.all<imc::EntityState>())
+        if (each.description.view() == "no fix of GPS yet: its place is not known") found.push_back(each);
+      return found;
+    };
+    const double latitude = LauvOperatorParameters{}.latitude, longitude = LauvOperatorParameters{}.longitude;
+    constexpr const char* refused = "GPS has given no fix yet: nobody knows where the vehicle is";
+    tasks::Instruments none, fixed;
+    none.latitude = fixed.latitude = latitude;
+    none.longitude = fixed.longitude = longitude;
+    fixed.place.count = 1;
+
+    Reports c;
+    CHECK(navigation(c).empty());  // nobody has said anything
+    c.report(none);
+    REQUIRE(navigation(c).size() == 1);
+    CHECK(navigation(c).back().state == imc::EntityState::State::BOOT);
+    CHECK(c.start(latitude, longitude) == refused);
+    CHECK(c.start_of(imc::FollowReference{}) == refused);
+    imc::StationKeeping station;
+    station.lat = latitude;
+    station.lon = longitude;
+    station.speed = 1;
+    CHECK(c.start_of(station) == refused);
+    imc::PopUp up;  // it is how it finds itself
+    up.flags = imc::PopUp::Flags::CURR_POS;
+    up.speed = 1;
+    CHECK(c.start_of(imc::Teleoperation{}) == "");
+    CHECK(c.start_of(up) == "");
+    up.flags = 0;
+    up.lat = latitude;
+    up.lon = longitude;
+    CHECK(c.start_of(up) == refused);
+
+    Reports found;
+    found.report(fixed);
+    CHECK(navigation(found).empty());
+    CHECK(found.start(latitude, longitude) == "");
   }
 }

@@ -43,6 +43,34 @@ TEST_SUITE("distributers/lauv_servos") {
     CHECK(adapter.non_finite_inputs() == 1);
   }
 
+  TEST_CASE("the propeller's speed becomes a reading beside what it was sent last, but not where others drive it") {
+    Typed<LauvVehicle> adapter;
+    Ignored sent;
+    tasks::Servos servos;
+    const auto report = [&](std::int16_t rpm) {
+      imc::Rpm message;
+      message.value = rpm;
+      adapter.receive(messages::refer_to(message));
+    };
+    report(100);
+    adapter.hand_over<&LauvVehicle::Out::actuation>(tasks::Actuation{0.5, {}}, sent);
+    CHECK(adapter.take<&In::servos>(servos));
+    CHECK(servos.propeller.speed == 100);
+    CHECK(servos.propeller.commanded == 0);  // it came before any command
+    CHECK(servos.propeller.count == 1);
+    report(-1200);
+    adapter.take<&In::servos>(servos);
+    CHECK(servos.propeller.speed == -1200);
+    CHECK(servos.propeller.commanded == 0.5);
+    CHECK(servos.propeller.count == 2);
+    imc::VehicleState steers_itself;
+    steers_itself.control_loops = imc::CLoopsMask::SPEED;
+    adapter.receive(messages::refer_to(steers_itself));
+    report(0);
+    adapter.take<&In::servos>(servos);
+    CHECK(servos.propeller.count == 2);
+  }
+
   TEST_CASE("servos that are not fitted say so") {
     LauvVehicleParameters parameters;
     parameters.servos.fitted = false;
