@@ -10,7 +10,9 @@ namespace jarol {
 
 template <class Before>
 Places::Place Places::walk(const Before& is_before) {
-  const auto continues = [&] { return byte_ < text_.size() && (static_cast<unsigned char>(text_[byte_]) & 0xc0) == 0x80; };
+  const auto continues = [&] {
+    return byte_ < text_.size() && (static_cast<unsigned char>(text_[byte_]) & 0xc0) == 0x80;
+  };
   while (byte_ < text_.size() && is_before()) {
     if (text_[byte_++] == '\n') {
       ++line_;
