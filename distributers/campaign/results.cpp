@@ -70,7 +70,9 @@ void Results::Close::operator()(sqlite3_stmt* statement) const { sqlite3_finaliz
 Results::Results(const std::string& path, const Identity& identity, const Campaign& campaign)
     : path_(path), metrics_(campaign.measures.metrics.size()) {
   sqlite3* database = nullptr;
-  const int opened = sqlite3_open_v2(path.c_str(), &database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
+  // a name is a name, never an address that SQLite knows
+  const std::string name = path.starts_with("file:") ? "./" + path : path;
+  const int opened = sqlite3_open_v2(name.c_str(), &database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
   database_.reset(database);
   if (opened != SQLITE_OK) fail();
   file_ = file_at(path);

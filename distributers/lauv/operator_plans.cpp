@@ -11,6 +11,7 @@
 namespace jarol::distributers {
 namespace {
 
+constexpr std::string_view no_place = "GPS has given no fix yet: nobody knows where the vehicle is";
 constexpr std::string_view run_ends = "the run is ending: the vehicle is brought to rest";
 
 std::uint16_t system_of(const messages::MessageRef& from) {
@@ -104,8 +105,7 @@ std::string LauvOperator::execute(Plan plan) {
   if (ending_) return std::string(run_ends);
   if (mode_ == Mode::error) return "just aborted";
   if (alarm_ != tasks::Alarm::none) return fmt::format("the vehicle comes up: {}", name_of(alarm_));
-  if (placeless_ && needs_place(plan.maneuvers[plan.start]))
-    return "GPS has given no fix yet: nobody knows where the vehicle is";
+  if (placeless_ && needs_place(plan.maneuvers[plan.start])) return std::string(no_place);
   plan_.stop("");
   plan_.start(std::move(plan), motion_, now_);
   log(imc::LogBookEntry::Type::INFO, fmt::format("plan '{}' begins", plan_.name()));
@@ -126,6 +126,10 @@ void LauvOperator::follow_plan() {
       last_error_ = plan_.why();
       last_error_at_ = unix_time();
     }
+    return stop();
+  }
+  if (placeless_ && needs_place(plan_.maneuver())) {
+    end_plan(std::string(no_place));
     return stop();
   }
   if (plan_.maneuver_start() == now_) maneuver_start_ = unix_time();

@@ -240,7 +240,7 @@ void LauvOperator::send_stream(const tasks::Stream& stream, messages::Receiver& 
 void LauvOperator::note_instruments(const tasks::Instruments& instruments, messages::Receiver&) {
   if (instruments.altitude.count != altitude_.count) altitude_at_ = now_;
   altitude_ = instruments.altitude;
-  placeless_ = instruments.place.count < 1;
+  placeless_ = instruments.place.count == 0;
   const bool moved = instruments.latitude != origin_.latitude || instruments.longitude != origin_.longitude;
   if (instruments.place.count > 0 && moved) move_origin({instruments.latitude, instruments.longitude});
 }

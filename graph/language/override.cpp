@@ -100,18 +100,19 @@ bool read_set(const std::string& argument, const std::string& option, std::strin
     problems.add({source, 1, 1}, "'" + argument + "' is no override; write path=value, as in " + std::string(example));
     return false;
   }
-  if (argument.find_first_not_of(' ', equals + 1) == std::string::npos) {
+  const std::size_t begin = argument.find_first_not_of(" \t", equals + 1);
+  if (begin == std::string::npos) {
     problems.add({source, 1, static_cast<int>(equals) + 2},
                  "'" + argument + "' gives no value; write path=value, as in " + std::string(example));
     return false;
   }
   // the value alone is read as YAML; blanks in front of it keep its place in the argument
-  const auto padded =
-      std::make_shared<Source>(Source{option, std::string(equals + 1, ' ') + argument.substr(equals + 1)});
+  const auto padded = std::make_shared<Source>(Source{option, std::string(begin, ' ') + argument.substr(begin)});
   Problems of_value;
   value = read_yaml(padded, of_value);
   for (Problem problem : of_value.list()) {
     problem.where.source = source;
+    for (Note& note : problem.notes) note.where.source = source;
     problems.add(problem.where, problem.text, problem.notes);
   }
   if (!of_value.empty()) return false;

@@ -94,11 +94,10 @@ class Builder {
       if (aliased_ > max_aliased) too_much("aliases stand for more than " + std::to_string(max_aliased) + " values");
       return finish(Yaml(found->second), "");
     }
-    if (std::any_of(open_.begin(), open_.end(), [&](const Open& outer) { return outer.anchor == name; }))
-      problems_.add(value.where, "an alias stands inside the very value it refers to; a value can't contain itself");
-    else
-      problems_.add(value.where, "alias '*" + name + "' has no anchor before it; write '&" + name +
-                                     "' before what it is to stand for");
+    if (std::none_of(open_.begin(), open_.end(), [&](const Open& outer) { return outer.anchor == name; }))
+      events_.refuse(value.where, "alias '*" + name + "' has no anchor before it; write '&" + name +
+                                      "' before what it is to stand for");
+    problems_.add(value.where, "an alias stands inside the very value it refers to; a value can't contain itself");
     finish(std::move(value), "");
   }
 
@@ -252,10 +251,9 @@ Yaml read_yaml(const std::shared_ptr<const Source>& source, Problems& problems) 
       events.next();
       problems.add(events.where(), "a second document begins here; a file holds one");
     }
-    return root;
   } catch (const NotYaml&) {
   } catch (const TooMuch&) {}
-  return {};
+  return root;
 }
 
 }  // namespace jarol

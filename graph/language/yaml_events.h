@@ -16,25 +16,24 @@ namespace jarol {
 /// Where characters of a text stand. Columns count bytes, as those of any Location do.
 class Places {
  public:
-  explicit Places(std::string_view text) : text_(text) {}
+  /// Characters are counted after so many bytes.
+  explicit Places(std::string_view text, std::size_t begin = 0) : text_(text), begin_(begin), byte_(begin) {}
 
   struct Place {
     int line = 1, column = 1;
   };
-  /// Characters and bytes are counted from 0. Quick where they are asked for in their order.
+  /// Counted from 0. Quick where they are asked for in their order.
   Place of_character(std::size_t index);
-  Place of_byte(std::size_t byte);
+  /// Counted from 0, by going through all before it.
+  Place of_byte(std::size_t byte) const;
 
  private:
-  template <class Before>
-  Place walk(const Before& is_before);
-
   std::string_view text_;
-  std::size_t byte_ = 0, character_ = 0, line_begin_ = 0;
+  std::size_t begin_, byte_, character_ = 0, line_begin_ = 0;
   int line_ = 1;
 };
 
-/// A text that libyaml can't read on; what is wrong is a Problem by then.
+/// A text that can't be read on; what is wrong is a Problem by then.
 struct NotYaml {};
 
 class YamlEvents {
@@ -48,6 +47,9 @@ class YamlEvents {
   /// The next one, until another is asked for. Throws NotYaml, after which there is no other.
   const yaml_event_s& next();
 
+  /// Ends the reading for what is wrong there.
+  [[noreturn]] void refuse(const Location& where, const std::string& text, std::vector<Note> notes = {});
+
   /// Of the event at hand.
   Location where();
   /// Bytes that were read so far, or somewhat fewer.
@@ -56,13 +58,17 @@ class YamlEvents {
  private:
   struct State;  // of libyaml
   [[noreturn]] void refuse();
+  [[noreturn]] void refuse_unreadable();
+  void refuse_what_hides();
   Location at(Places::Place place) const { return {source_, place.line, place.column}; }
   Location at(const yaml_mark_s& mark);
 
   std::shared_ptr<const Source> source_;
   Problems& problems_;
+  std::size_t begin_;  // after the mark that tells the order of bytes
   Places places_;
   std::unique_ptr<State> state_;
+  bool is_looked_through_ = false;
   std::size_t bytes_ = 0;
 };
 

@@ -38,7 +38,10 @@ void look(const FinWatch::Param& p, const PropellerReading& propeller, double dt
   const double since = state.propeller_count < 1 ? 0 : std::min(state.propeller_silence, p.silence);
   state.propeller_count = propeller.count;
   state.propeller_silence = 0;
-  const bool wrong = std::abs(propeller.speed / p.full_speed - propeller.commanded) > p.propeller_error;
+  const double turns = propeller.speed / p.full_speed;
+  const auto [slowest, fastest] = std::minmax(propeller.commanded, state.propeller_commanded);
+  const bool wrong = turns < slowest - p.propeller_error || turns > fastest + p.propeller_error;
+  state.propeller_commanded = propeller.commanded;
   state.propeller_wrong_for =
       wrong ? state.propeller_wrong_for + since : std::max(state.propeller_wrong_for - since, 0.0);
   found = state.propeller_wrong_for > p.propeller_time ? FinState::stuck : FinState::follows;

@@ -14,12 +14,11 @@ namespace jarol::tasks {
 
 /// A sound servo is between where it is sent and where one that turns at `servo_rate` would be by now. One that is
 /// further out by more than `error` is wrong; wrong for `error_time` longer than it was right, it is stuck, until the
-/// operator demands a stop: then it is tried anew. A servo that has never reported is not checked. So it is with a
-/// propeller that turns by more than `propeller_error` of its full speed otherwise than it is sent, for
-/// `propeller_time`: longer than the supervisor takes to find that its speed is reported wrong.
+/// operator demands a stop: then it is tried anew. A servo that has never reported is not checked. A propeller is stuck
+/// that turns by more than `propeller_error` of its full speed otherwise than it is sent, now or at the reading before,
+/// for `propeller_time`: longer than the supervisor takes to find that its speed is reported wrong.
 struct FinWatch {
-  static constexpr std::string_view summary =
-      "finds fins that do not go where they are sent, and a propeller that does not turn so";
+  static constexpr std::string_view summary = "finds fins and a propeller that do not do what they are sent";
   struct Param {
     double error = 3 * degree;
     double error_time = 0.3;
@@ -53,6 +52,7 @@ struct FinWatch {
     std::int64_t propeller_count = 0;
     double propeller_silence = 0;
     double propeller_wrong_for = 0;
+    double propeller_commanded = 0;
     FinCondition fins{};
     std::uint32_t stops = 0;
     static constexpr auto fields() {
@@ -62,7 +62,8 @@ struct FinWatch {
                       field<&S::wrong_for>("s", "less what it was right since"),
                       field<&S::propeller_count>("", "readings of its speed"),
                       field<&S::propeller_silence>("s", "since the last one"),
-                      field<&S::propeller_wrong_for>("s", "less what it was right since"), field<&S::fins>(),
+                      field<&S::propeller_wrong_for>("s", "less what it was right since"),
+                      field<&S::propeller_commanded>("", "by the reading before"), field<&S::fins>(),
                       field<&S::stops>("", "of the operator, up to now"));
     }
   };

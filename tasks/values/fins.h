@@ -63,7 +63,7 @@ struct FinCondition {
     using F = FinCondition;
     return describe(field<&F::states>("", "of bottom, port, starboard, top"),
                     field<&F::angles>("rad", "at which those that are stuck are held"),
-                    field<&F::propeller>("", "stuck: it does not turn as it is sent"));
+                    field<&F::propeller>("", "unknown, follows or stuck: it does not turn as it is sent"));
   }
 };
 

@@ -163,6 +163,25 @@ fault_limit: 100%
     const auto cut = command::run_jarol("log diff " + a + " " + broken);
     CHECK(has(cut.output, "  breaks off  B at byte "));
     CHECK(cut.output.ends_with("; what it lacks after that counts as different\n"));
+    // and what else of it is the same is no more than that
+    const std::string shorter = folder / "shorter.mcap";
+    std::filesystem::copy_file(a, shorter);
+    std::filesystem::resize_file(shorter, std::filesystem::file_size(shorter) - 1);
+    const auto so_far = command::run_jarol("log diff " + a + " " + shorter);
+    CHECK(so_far.exit_code == 1);
+    CHECK(so_far.output.starts_with("the same, "));
+    CHECK(has(so_far.output, " values, as far as both go\n  breaks off  B at byte "));
+    CHECK(nlohmann::json::parse(command::run_jarol("log diff --json " + a + " " + shorter).output)["verdict"] ==
+          "same_so_far");
+    // what else was published shows in the digests
+    const std::string few = folder / "few.mcap", others = folder / "others.mcap";
+    const std::string counted = "run specs/counting.yaml --for 3s --record-what 'count.*' --record ";
+    REQUIRE(command::run_jarol(counted + few).exit_code == 0);
+    REQUIRE(command::run_jarol(counted + others + " --set tasks.loop.init.out=1").exit_code == 0);
+    const auto early = command::run_jarol("log diff --until 2s " + few + " " + others);
+    CHECK(early.exit_code == 1);
+    CHECK(has(early.output, "  apart       at 1 s: digest 0x"));
+    CHECK(command::run_jarol("log diff --until 2s " + few + " " + few).exit_code == 0);
     // with --record-what only what is chosen
     const std::string part = folder / "part.mcap";
     REQUIRE(command::run_jarol(run + part + " --record-what 'count.*'").exit_code == 0);

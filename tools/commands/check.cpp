@@ -49,14 +49,10 @@ struct CheckOptions {
 };
 
 int exit_code_of(const CheckReport& report) {
-  switch (report.result.verdict) {
-    case Verdict::schedulable:
-      return chains_hold(report) && longer_than_stated(report) == nullptr ? exit_good : exit_negative;
-    case Verdict::not_schedulable: return exit_negative;
-    case Verdict::unknown:
-      return chains_hold(report) && longer_than_stated(report) == nullptr ? exit_unfinished : exit_negative;
-  }
-  return exit_unfinished;
+  const std::optional<bool> chains = chains_hold(report);
+  if (report.result.verdict == Verdict::not_schedulable || chains == false || longer_than_stated(report) != nullptr)
+    return exit_negative;
+  return report.result.verdict == Verdict::schedulable && chains ? exit_good : exit_unfinished;
 }
 
 // The worst of the verdicts: bad input, then not schedulable, then undecided.

@@ -152,6 +152,49 @@ TEST_SUITE("distributers/lauv/operator_places") {
     up.lon = longitude;
     CHECK(c.start_of(up) == refused);
 
+    // after a maneuver that needs none
+    Reports later;
+    later.report(none);
+    imc::IdleManeuver idle;
+    idle.duration = 1;
+    imc::Goto there;
+    there.lat = latitude;
+    there.lon = longitude;
+    there.speed = 1;
+    imc::PlanControl request;
+    request.plan_id = "two";
+    imc::PlanSpecification plan;
+    plan.start_man_id = "wait";
+    imc::PlanManeuver wait, go;
+    wait.maneuver_id = "wait";
+    wait.data = packed(idle);
+    go.maneuver_id = "go";
+    go.data = packed(there);
+    plan.maneuvers = {packed(wait), packed(go)};
+    imc::PlanTransition then;
+    then.source_man = "wait";
+    then.dest_man = "go";
+    then.conditions = "ManeuverIsDone";
+    plan.transitions.push_back(packed(then));
+    request.arg = packed(plan);
+    later.say(request);
+    later.pass(500ms);
+    CHECK(later.to.last<imc::PlanControl>().info == "");
+    CHECK(later.to.last<imc::PlanControlState>().state == imc::PlanControlState::State::EXECUTING);
+    tasks::Leg leg;
+    REQUIRE(later.adapter.take<&LauvOperator::In::leg>(leg));
+    later.adapter.hand_over<&LauvOperator::Out::progress>({.on_leg = leg.number, .done = true}, later.to);
+    later.pass(1s);
+    CHECK(later.to.last<imc::LogBookEntry>().text.view() == std::string("plan 'two' ends: ") + refused);
+    CHECK(later.to.last<imc::PlanControlState>().last_outcome == imc::PlanControlState::LastOutcome::FAILURE);
+
+    Reports unfitted;  // it goes by its way from the origin
+    tasks::Instruments without = none;
+    without.place.count = -1;
+    unfitted.report(without);
+    CHECK(navigation(unfitted).empty());
+    CHECK(unfitted.start(latitude, longitude) == "");
+
     Reports found;
     found.report(fixed);
     CHECK(navigation(found).empty());

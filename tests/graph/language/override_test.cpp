@@ -21,6 +21,17 @@ TEST_SUITE("graph/spec/override") {
     CHECK(graph_of(counting, {"", {"tasks.count.period=20ms"}}).tasks[0].period == std::chrono::milliseconds(20));
   }
 
+  TEST_CASE("what is wrong with a value of --set is shown in the argument, and so is where it began") {
+    CHECK(report_on(counting, {"", {"tasks.count.wcet=\"3ms"}}) ==
+          "--set:1:22: error: not valid YAML: found unexpected end of stream\n"
+          "  tasks.count.wcet=\"3ms\n"
+          "                       ^\n"
+          "--set:1:18: note: while scanning a quoted scalar, from here on\n"
+          "  tasks.count.wcet=\"3ms\n"
+          "                   ^");
+    CHECK(graph_of(counting, {"", {"tasks.count.wcet=\t 2us"}}).tasks[0].wcet == std::chrono::microseconds(2));
+  }
+
   TEST_CASE("--set may add a key to a task that exists") {
     CHECK(graph_of(counting, {"", {"tasks.count.wcet=2us"}}).tasks[0].wcet == std::chrono::microseconds(2));
     CHECK(graph_of(counting, {"", {"timing.period=40ms"}}).period == std::chrono::milliseconds(40));

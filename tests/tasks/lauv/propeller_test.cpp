@@ -57,6 +57,14 @@ TEST_SUITE("tasks/lauv_propeller") {
       w.step();
       CHECK(w.out.fins.propeller == FinState::follows);
     }
+    // told each second, half a second late, while it is sent the other way each second
+    TurningPropeller late;
+    for (int step = 0; step < 2000; ++step) {
+      const double commanded = (step / 20) % 2 == 0 ? 0.6 : -0.6;
+      if (step % 20 == 10) late.in.servos.propeller = {-2500 * commanded, commanded, step + 1};
+      late.step();
+      CHECK(late.out.fins.propeller != FinState::stuck);
+    }
     w.in.servos.propeller = {speed, speed > 0 ? -1.0 : 1.0, w.in.servos.propeller.count};
     for (int step = 0; step < 400; ++step) w.step();
     CHECK(w.out.fins.propeller == FinState::follows);

@@ -104,7 +104,7 @@ def flaw(validator, text):
 
 
 def main(schema_path, specs):
-    schema = json.loads(pathlib.Path(schema_path).read_text())
+    schema = json.loads(pathlib.Path(schema_path).read_text(errors="surrogateescape"))
     jsonschema.Draft7Validator.check_schema(schema)
     validator = jsonschema.Draft7Validator(schema)
     beyond = {name for names in BEYOND_A_SCHEMA.values() for name in names.split()}
@@ -112,10 +112,10 @@ def main(schema_path, specs):
     broken = sorted(pathlib.Path(specs, "broken").glob("*.yaml"))
     wrong = []
     for path in shipped:
-        if reason := flaw(validator, path.read_text()):
+        if reason := flaw(validator, path.read_text(errors="surrogateescape")):
             wrong.append(f"{path} is refused: {reason}")
     for path in broken:
-        seen = flaw(validator, path.read_text())
+        seen = flaw(validator, path.read_text(errors="surrogateescape"))
         if not seen and path.stem not in beyond:
             wrong.append(f"{path} is taken; make the schema refuse it, or say here why none can")
         if seen and path.stem in beyond:

@@ -11,6 +11,11 @@ namespace {
 using analysis::Verdict;
 using Json = nlohmann::ordered_json;
 
+template <class T>
+Json json_or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
 // Null where nothing was measured.
 Json measured_json(const CheckReport& r) {
   if (!r.measured) return nullptr;
@@ -35,19 +40,18 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
   auto tasks = Json::array();
   for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
     const Task& t = r.graph->tasks[i];
-    const auto or_null = [](const auto& value) { return value ? Json(*value) : Json(nullptr); };
     const auto& response = r.result.response[i];
     Json task{{"name", t.name},
               {"period_ns", t.period.count()},
               {"offset_ns", t.offset.count()},
               {"deadline_ns", t.deadline.count()},
               {"wcet_ns", t.wcet ? Json(t.wcet->count()) : Json(nullptr)},
-              {"core", or_null(r.result.core[i])},
-              {"response_ns", or_null(response)},
+              {"core", json_or_null(r.result.core[i])},
+              {"response_ns", json_or_null(response)},
               {"response_exact", response ? Json(static_cast<bool>(r.result.exact[i])) : Json(nullptr)},
               {"slack_ns", response ? Json(t.deadline.count() - *response) : Json(nullptr)},
-              {"max_wcet_ns", r.sensitivity ? or_null(r.sensitivity->max_wcet[i]) : Json(nullptr)},
-              {"min_deadline_ns", r.sensitivity ? or_null(r.sensitivity->min_deadline[i]) : Json(nullptr)}};
+              {"max_wcet_ns", r.sensitivity ? json_or_null(r.sensitivity->max_wcet[i]) : Json(nullptr)},
+              {"min_deadline_ns", r.sensitivity ? json_or_null(r.sensitivity->min_deadline[i]) : Json(nullptr)}};
     tasks.push_back(std::move(task));
   }
   Json witness = nullptr;
@@ -77,7 +81,7 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
                       {"jitter_ns", c.latency.exact ? Json(c.latency.jitter) : Json(nullptr)},
                       {"reaction_limit_ns", c.chain.reaction ? Json(c.chain.reaction->count()) : Json(nullptr)},
                       {"age_limit_ns", c.chain.age ? Json(c.chain.age->count()) : Json(nullptr)},
-                      {"holds", c.latency.exact || holds(c) ? Json(holds(c)) : Json(nullptr)}});
+                      {"holds", json_or_null(holds(c))}});
   const Platform& platform = r.graph->platform;
   auto suggestions = Json::array();
   for (const Remedy& remedy : r.remedies) suggestions.push_back(remedy.text);
@@ -94,7 +98,7 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
             {"dispatch_ns", platform.dispatch.count()},
             {"copy_ns_per_byte", platform.copy.count()}}},
           {"verdict", word_of(r.result.verdict)},
-          {"limits_hold", chains_hold(r)},
+          {"limits_hold", json_or_null(chains_hold(r))},
           {"evidence", word_of(r.result.evidence)},
           {"reason", r.result.reason},
           {"witness", std::move(witness)},

@@ -55,7 +55,7 @@ std::string broken_limits(const CheckReport& r) {
   std::string is, may_be;
   for (const ReportedChain& c : r.chains) {
     std::string& names = c.latency.exact ? is : may_be;
-    if (!holds(c)) names += (names.empty() ? "'" : ", '") + c.chain.name + "'";
+    if (holds(c) != true) names += (names.empty() ? "'" : ", '") + c.chain.name + "'";
   }
   if (!is.empty()) is = ", BUT A LIMIT IS BROKEN by chain " + is;
   if (!may_be.empty()) may_be = (is.empty() ? ", BUT A LIMIT" : ", AND ONE") + (" MAY BE BROKEN by chain " + may_be);

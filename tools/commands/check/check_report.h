@@ -35,8 +35,8 @@ struct CheckReport {
 /// machine. Null: none did.
 const Task* longer_than_stated(const CheckReport& report);
 
-/// Does every chain keep its limits?
-bool chains_hold(const CheckReport& report);
+/// Does every chain keep its limits? None: not known of some, and broken by none.
+std::optional<bool> chains_hold(const CheckReport& report);
 
 std::string to_text(const CheckReport& report);
 nlohmann::ordered_json to_json(const CheckReport& report);

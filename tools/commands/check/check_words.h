@@ -1,6 +1,7 @@
 // What the report of a check says in the same words as text and as JSON.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "tools/commands/check/check_report.h"
@@ -10,8 +11,8 @@ namespace jarol::tools {
 /// Nanoseconds, as in 1ms.
 inline std::string duration(std::int64_t ns) { return duration_text(Duration(ns)); }
 
-/// Does the chain keep its limits?
-bool holds(const ReportedChain& chain);
+/// Does the chain keep its limits? None: its latency is known by bounds only, and these exceed one.
+std::optional<bool> holds(const ReportedChain& chain);
 
 /// Who runs when, and what that costs.
 std::string assumption(const Graph& graph);

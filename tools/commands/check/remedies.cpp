@@ -292,7 +292,7 @@ std::vector<Remedy> find_remedies(const std::shared_ptr<const Source>& source, c
   const bool stated =
       std::all_of(report.graph->tasks.begin(), report.graph->tasks.end(), [](const Task& t) { return t.wcet; });
   if (!stated || report.graph->tasks.empty()) return {};
-  if (report.result.verdict == Verdict::schedulable && chains_hold(report)) return {};
+  if (report.result.verdict == Verdict::schedulable && chains_hold(report) == true) return {};
   return Search(source, overrides, registry, report, budget).run();
 }
 

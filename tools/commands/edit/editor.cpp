@@ -33,7 +33,7 @@ std::string text_in(const nlohmann::json& json, const char* key) {
 // A graph that loads and does not hold.
 bool can_be_helped(const Json& verdict) {
   return verdict.contains("check") &&
-         (verdict["check"]["verdict"] != "schedulable" || !verdict["check"]["limits_hold"].get<bool>());
+         (verdict["check"]["verdict"] != "schedulable" || verdict["check"]["limits_hold"] != true);
 }
 
 // With what the file's plugins bring; where they can't be loaded, without.

@@ -89,6 +89,13 @@ std::optional<RecordedRest> read_rest(const Recording& recording) {
   return rest;
 }
 
+std::vector<RunningDigest> read_digests(const Recording& recording) {
+  std::vector<RunningDigest> digests;
+  each<RunningDigest>(recording, topics::digests,
+                      [&](Duration, const RunningDigest& digest) { digests.push_back(digest); });
+  return digests;
+}
+
 std::string_view words_of(const std::optional<RecordedRest>& rest, bool is_whole) {
   if (!rest || (!rest->reached && !is_whole)) return "not known";
   return rest->reached ? "at rest" : "NOT AT REST";

@@ -51,6 +51,9 @@ struct RecordedRest {
 
 /// None: it was not, or that is not known. Throws LogError.
 std::optional<RecordedRest> read_rest(const Recording& recording);
+
+/// The digests of the run on its way, in their order. Throws LogError.
+std::vector<RunningDigest> read_digests(const Recording& recording);
 /// "at rest", "NOT AT REST"; of inputs alone it is not known.
 std::string_view words_of(const std::optional<RecordedRest>& rest, bool is_whole);
 

@@ -1,6 +1,7 @@
 // How a campaign ends where something is in its way: a task that crashes, results that are removed, outputs that can't
 // be made.
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
@@ -78,6 +79,13 @@ TEST_SUITE("tools/commands/campaign/ends") {
     CHECK(refused.output ==
           "error: --results: ':memory:' is no file, and results that end with the process are of no use; name a file, "
           "as in --results campaign.sqlite\n");
+  }
+
+  TEST_CASE("a name of results that SQLite would take for an address is a name") {
+    const std::string name = "file:jarol_results_" + std::to_string(::getpid()) + "?mode=memory";
+    const auto done = command::run_jarol(counting + "--results '" + name + "'");
+    CHECK(done.exit_code == 0);
+    CHECK(std::filesystem::remove(name));
   }
 
   TEST_CASE("results that are removed during the campaign are reported as lost, behind what they came to") {

@@ -69,11 +69,11 @@ export interface Problem extends Place {
 }
 export interface Checked {
   verdict: string;
-  limits_hold: boolean;
+  limits_hold: boolean | null; // null: not known
   reason: string;
   utilisation: number;
   tasks: { name: string; slack_ns: number | null; response_ns: number | null; response_exact: boolean | null; core: number | null }[];
-  chains: { name: string; holds: boolean; max_reaction_ns: number; reaction_limit_ns: number | null }[];
+  chains: { name: string; holds: boolean | null; max_reaction_ns: number; reaction_limit_ns: number | null }[];
 }
 export interface Verdict {
   id: number;
