@@ -37,7 +37,8 @@ TEST_SUITE("tasks/lauv/guidance_miss") {
   TEST_CASE("who comes past the end of a line far off it turns, and is done where it reaches it") {
     // its place leaps aside, and aside and beyond, and straight ahead
     const double leaps[][2] = {{75, 60}, {140, 60}, {140, 0}};
-    for (const auto& [x, y] : leaps) {
+    for (const auto& leap : leaps) {
+      const double x = leap[0], y = leap[1];
       CAPTURE(x);
       CAPTURE(y);
       Swimmer s;
