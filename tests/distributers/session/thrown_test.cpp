@@ -164,12 +164,14 @@ TEST_SUITE("distributers/session/thrown") {
       const char* where;
       const char* whose;
     };
-    for (const auto& [where, whose] : {Case{"serialize", "its vehicle's"}, {"serialize of the distributer", "its"}}) {
+    for (const Case& each : {Case{"serialize", "its vehicle's"}, {"serialize of the distributer", "its"}}) {
+      const char* const where = each.where;
+      const std::string whose = each.whose;
       CAPTURE(where);
       Session session(parts_that_throw(), sinking());
       session.run_until(1s);
       const Checkpoint saved = session.checkpoint();
-      const std::string what = std::string(whose) + " serialize(Archive&) throws: something that is no exception";
+      const std::string what = whose + " serialize(Archive&) throws: something that is no exception";
       {
         const Throwing throwing(where);
         CHECK_THROWS_WITH_AS(session.checkpoint(), ("distributer 'balloon': " + what).c_str(), CheckpointRefused);
