@@ -51,8 +51,8 @@ struct LauvOperatorParameters {
 /// stick that rests counts for nothing, as the vehicle's DUNE has it: only in its Teleoperation does a hand steer, and
 /// nobody has to be heard. Another who has the link now is the operator from when it commands: until then it is the one
 /// before that is silent. What is asked is answered at the next instant. While the vehicle is brought to rest at the
-/// end of a run no plan begins; a stop is obeyed in place of what brings it there. Nor does one that goes by places
-/// while nobody knows where the vehicle is.
+/// end of a run no plan begins; a stop is obeyed in place of what brings it there. No plan goes by places while
+/// nobody knows where the vehicle is.
 class LauvOperator {
  public:
   static constexpr std::string_view summary = "the submarine's operator, over IMC";

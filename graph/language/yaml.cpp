@@ -22,9 +22,6 @@ constexpr std::size_t min_bytes_each = 4;  // beyond that many
 constexpr std::size_t max_aliased = 100'000;
 constexpr std::size_t max_depth = 64;
 
-/// A text that is no YAML of a reasonable size; what is too much is a Problem by then.
-struct TooMuch {};
-
 std::string_view text_of(const yaml_char_t* text) {
   return text == nullptr ? std::string_view() : std::string_view(reinterpret_cast<const char*>(text));
 }
@@ -146,10 +143,7 @@ class Builder {
     return sum;
   }
 
-  [[noreturn]] void too_much(const std::string& text) {
-    problems_.add(last_, text);
-    throw TooMuch();
-  }
+  [[noreturn]] void too_much(const std::string& text) { events_.refuse(last_, text); }
 
   void finish(Yaml&& value, std::string_view anchor) {
     if (++values_ > max_values) too_much("the text holds more than " + std::to_string(max_values) + " values");
@@ -178,10 +172,8 @@ class Builder {
   // anchors inside anchored values multiply
   void keep(const std::string& anchor, const Yaml& value) {
     anchored_values_ += count(value);
-    if (anchored_values_ > max_aliased) {
-      problems_.add(value.where, "anchors name more than " + std::to_string(max_aliased) + " values");
-      throw TooMuch();
-    }
+    if (anchored_values_ > max_aliased)
+      events_.refuse(value.where, "anchors name more than " + std::to_string(max_aliased) + " values");
     anchored_.insert_or_assign(anchor, value);
   }
 
@@ -242,8 +234,8 @@ Yaml read_yaml(const std::shared_ptr<const Source>& source, Problems& problems) 
     problems.add(root.where, "the text is larger than " + std::to_string(max_source_bytes >> 20) + " MiB");
     return root;
   }
-  YamlEvents events(source, problems);
   try {
+    YamlEvents events(source, problems);
     events.next();  // the begin of the stream
     if (events.next().type != YAML_DOCUMENT_START_EVENT) return root;
     root = Builder(events, problems).read();
@@ -252,7 +244,8 @@ Yaml read_yaml(const std::shared_ptr<const Source>& source, Problems& problems) 
       problems.add(events.where(), "a second document begins here; a file holds one");
     }
   } catch (const NotYaml&) {
-  } catch (const TooMuch&) {}
+    // it is a problem by now
+  }
   return root;
 }
 

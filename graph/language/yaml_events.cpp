@@ -8,7 +8,6 @@
 #include <utility>
 
 namespace jarol {
-
 namespace {
 
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
@@ -61,12 +60,12 @@ YamlEvents::YamlEvents(std::shared_ptr<const Source> source, Problems& problems)
   const std::string& text = source_->text;
   yaml_parser_set_input_string(&state_->parser, reinterpret_cast<const unsigned char*>(text.data()) + begin_,
                                text.size() - begin_);
+  refuse_what_hides();
 }
 
 YamlEvents::~YamlEvents() = default;
 
 const yaml_event_t& YamlEvents::next() {
-  if (!std::exchange(is_looked_through_, true)) refuse_what_hides();
   yaml_event_delete(&state_->event);
   if (yaml_parser_parse(&state_->parser, &state_->event) == 0) refuse();
   bytes_ = state_->parser.offset;
@@ -107,9 +106,10 @@ void YamlEvents::refuse_unreadable() {
   if (std::string_view(parser.problem).find("UTF-8") == std::string_view::npos)
     refuse(at(places_.of_byte(byte)), "not valid YAML: " + std::string(parser.problem) + ": 0x" +
                                           fmt::format("{:02x}", std::max(parser.problem_value, 0)));
-  // the byte that others should have followed
-  for (int i = 0; i < 3 && byte > 0 && byte_at(byte) < 0xc0; ++i)
-    if (byte_at(byte - 1) >= 0x80) --byte;
+  // what should have followed another byte is found behind it
+  if (std::string_view(parser.problem).find("trailing") != std::string_view::npos) do
+      --byte;
+    while ((byte_at(byte) & 0xc0) == 0x80);
   refuse(at(places_.of_byte(byte)), "not valid YAML: no UTF-8 from here on: 0x" + fmt::format("{:02x}", byte_at(byte)));
 }
 

@@ -38,7 +38,7 @@ struct NotYaml {};
 
 class YamlEvents {
  public:
-  /// The text outlives this.
+  /// Throws NotYaml.
   YamlEvents(std::shared_ptr<const Source> source, Problems& problems);
   ~YamlEvents();
   YamlEvents(const YamlEvents&) = delete;
@@ -68,7 +68,6 @@ class YamlEvents {
   std::size_t begin_;  // after the mark that tells the order of bytes
   Places places_;
   std::unique_ptr<State> state_;
-  bool is_looked_through_ = false;
   std::size_t bytes_ = 0;
 };
 

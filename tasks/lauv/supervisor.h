@@ -18,7 +18,8 @@ namespace jarol::tasks {
 /// can be steered, are lost then. One that lies is found by another that knows better: depth gauge and pressure,
 /// compass and IMU, attitude and rates, attitude and specific force, speed log and propeller, altitude and depth over a
 /// floor without steps: each from when both have reported something. Once alarmed it comes up: nose up at some speed
-/// until GPS finds the surface, or, where attitude or speed are in doubt, or the nose does not come up and it sinks,
+/// until GPS finds the surface, or, where attitude or speed are in doubt, the propeller
+/// does not turn as it is sent, or the nose does not come up and it sinks,
 /// with propeller off, by buoyancy. It stays alarmed, whatever becomes of the cause, until the operator demands a stop
 /// when there is none any more: then it is a vehicle at rest, to be commanded anew. Water in the hull takes the place
 /// of any other cause. A vehicle of which nothing was heard since the start is not lost but waited for, with propeller

@@ -55,9 +55,7 @@ const std::vector<std::string> brought_about_elsewhere{
     // megabytes of text, no text at all: tests/graph/language/yaml_test.cpp
     "the text holds more than ", " values stand so close that each takes less than ", " values are empty",
     "the text is larger than ", "it is a directory", "it is larger than ",
-    "it is no regular file; give - for what comes on stdin",
-    "what follows here is too long for one line, text, comment or nest of brackets: more than ", " MiB or ",
-    " marks; write it without outer brackets, on several lines"};
+    "it is no regular file; give - for what comes on stdin"};
 
 // What messages are made of: the texts between quotes that have a blank in them, cut at numbers to come and line ends.
 std::vector<std::string> words_of(const fs::path& source) {

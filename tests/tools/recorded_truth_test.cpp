@@ -35,6 +35,15 @@ std::string record_dive(const TemporaryFolder& folder) {
   folder.write("judged", judged(run.output));
   return file;
 }
+
+// A helicopter that loses a motor in flight; what is wrong with the run.
+auto crash(const std::string& recorded) {
+  return command::run_jarol(
+      "run specs/javiator.yaml --set expect=nothing "
+      "--set 'distributers.robostix.link.parameters.failures.front={kind: lost, at: 9}' " +
+          recorded,
+      "2>&1 >/dev/null");
+}
 }  // namespace
 
 TEST_SUITE("tools/recorded_truth") {
@@ -57,11 +66,7 @@ TEST_SUITE("tools/recorded_truth") {
       "what became of a vehicle stands in the recording, and a replay or a report of it is as bad as the run was") {
     const TemporaryFolder folder;
     const std::string file = folder / "crash.mcap";
-    const auto run = command::run_jarol(
-        "run specs/javiator.yaml --set expect=nothing "
-        "--set 'distributers.robostix.link.parameters.failures.front={kind: lost, at: 9}' --record " +
-            file,
-        "2>&1 >/dev/null");
+    const auto run = crash("--record " + file);
     CHECK(run.exit_code == 1);
     const std::string begin = "error: the vehicle of 'robostix' has ";
     REQUIRE(run.output.starts_with(begin + "crashed: a rotor met the ground, at 9."));
@@ -85,11 +90,7 @@ TEST_SUITE("tools/recorded_truth") {
   TEST_CASE("what became of a vehicle stands in a recording of inputs alone, too") {
     const TemporaryFolder folder;
     const std::string file = folder / "inputs.mcap";
-    const auto run = command::run_jarol(
-        "run specs/javiator.yaml --set expect=nothing "
-        "--set 'distributers.robostix.link.parameters.failures.front={kind: lost, at: 9}' --log " +
-            file,
-        "2>&1 >/dev/null");
+    const auto run = crash("--log " + file);
     CHECK(run.exit_code == 1);
     REQUIRE(run.output.starts_with("error: the vehicle of 'robostix' has crashed: "));
     const auto replay = command::run_jarol("replay " + file, "2>&1 >/dev/null");

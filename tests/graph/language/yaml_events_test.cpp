@@ -22,6 +22,8 @@ TEST_SUITE("graph/yaml_events") {
     // of another encoding: what should have followed it does not
     CHECK(wrong("# caf\xe9\na: 1\n") == "t.yaml:1:6: error: not valid YAML: no UTF-8 from here on: 0xe9");
     CHECK(wrong("# \xe2\x80x\na: 1\n") == "t.yaml:1:3: error: not valid YAML: no UTF-8 from here on: 0xe2");
+    CHECK(wrong("# \xe2\x82\xac\x80\na: 1\n") == "t.yaml:1:6: error: not valid YAML: no UTF-8 from here on: 0x80");
+    CHECK(wrong("# \xe2\x82") == "t.yaml:1:3: error: not valid YAML: no UTF-8 from here on: 0xe2");
     CHECK(wrong("a: \x80\n") == "t.yaml:1:4: error: not valid YAML: no UTF-8 from here on: 0x80");
     CHECK(wrong("\xff\xfe"
                 "a") == "t.yaml:1:1: error: not valid YAML: no UTF-8 from here on: 0xff");

@@ -28,9 +28,9 @@ std::string control_view(const Graph& graph, const ReportedChain& c) {
 }  // namespace
 
 std::string late_outs(const Graph& graph) {
+  if (graph.platform.phasing == Phasing::any) return "";  // nobody knows what runs at that instant
   std::string text;
   for (const Connection& c : graph.connections) {
-    if (graph.platform.phasing == Phasing::any) break;  // nobody knows what runs at that instant
     if (c.from.kind != End::Kind::task || c.to.kind != End::Kind::communicator) continue;
     const Task& producer = graph.tasks[c.from.index];
     const Communicator& out = graph.communicators[c.to.index];

@@ -97,12 +97,13 @@ std::vector<std::string> find_other_ends(const Recording& a, const Recording& b)
 // The first of the digests on their way that differs, which are of all that was published; empty: none does.
 std::string find_other_digest(const Recording& a, const Recording& b, Duration until) {
   const std::vector<RunningDigest> was = read_digests(a), is = read_digests(b);
+  auto now = is.begin();
   for (const RunningDigest& before : was) {
     if (before.exact == 0 || Duration(before.settled) > until) continue;
-    const auto now = std::find_if(is.begin(), is.end(), [&](const RunningDigest& other) {
-      return other.exact != 0 && other.settled == before.settled;
-    });
-    if (now != is.end() && now->digest != before.digest)
+    now = std::find_if(now, is.end(),
+                       [&](const RunningDigest& other) { return other.exact != 0 && other.settled >= before.settled; });
+    if (now == is.end()) break;
+    if (now->settled == before.settled && now->digest != before.digest)
       return fmt::format("at {} s: digest 0x{:016x} in A, 0x{:016x} in B", seconds_text(Duration(before.settled)),
                          before.digest, now->digest);
   }
