@@ -244,12 +244,13 @@ connections: [a.out -> b.in]
     // whoever writes a log with plugins of its own, and mends its sums
     for (const std::string path : {"plugins", "plugins.x"}) {
       const std::string made = folder / "made";
+      const Loaded loaded = tools::load_graph("specs/counting.yaml", {});
       RecordingWriter writer(made,
                              {.graph = "counting",
                               .file = graph,
                               .overrides = {"", {"tasks.a.init.out=1", path + "=[" + so + "]"}},
                               .clock = "virtual"},
-                             {}, *tools::load_graph("specs/counting.yaml", {}).graph);
+                             {}, *loaded.graph);
       writer.open();
       writer.close({});
       for (const std::string& words : {made, made + " " + graph}) {

@@ -53,8 +53,9 @@ TEST_SUITE("tools/replay") {
     const TemporaryFolder folder;
     const std::string secret = folder.write("secret", "root:$6$hunter2:19000:0:99999:7:::\n"),
                       log = folder / "run.mcap";
-    const Graph graph = std::move(*tools::load_graph("specs/counting.yaml", {}).graph);
-    RecordingWriter writer(log, {.graph = "counting", .file = secret, .overrides = {}, .clock = "virtual"}, {}, graph);
+    const Loaded loaded = tools::load_graph("specs/counting.yaml", {});
+    RecordingWriter writer(log, {.graph = "counting", .file = secret, .overrides = {}, .clock = "virtual"}, {},
+                           *loaded.graph);
     writer.open();
     writer.close({});
     for (const std::string& command : {"replay " + log, "log report " + log, "log csv " + log}) {
