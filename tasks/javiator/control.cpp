@@ -28,7 +28,7 @@ double turn(const TurnGains& g, TurnModel& model, double goal, double angle, dou
   const double acceleration = limited(2 * w * (speed - model.rate), max);
   model.angle += model.rate * dt + 0.5 * acceleration * dt * dt;
   model.rate += acceleration * dt;
-  const double error = model.angle - angle;
+  const double error = wrapped(model.angle - angle);
   model.trim = limited(model.trim + g.ki * error * dt, 0.2 * g.limit);
   const double demand =
       limited(acceleration / g.effect + g.kp * error + g.kd * (model.rate - rate) + model.trim, g.limit);
@@ -111,6 +111,12 @@ void AttitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   }
   out.turn.roll = turn(p.lean, state.roll, in.goal.roll, e.roll, e.p, dt);
   out.turn.pitch = turn(p.lean, state.pitch, in.goal.pitch, e.pitch, e.q, dt);
+  // it was turned while it stood, or its heading is counted anew
+  constexpr double astray = 0.5;  // rad
+  if (std::abs(wrapped(state.yaw.angle - e.yaw)) > astray) {
+    state.yaw.angle = e.yaw;
+    state.yaw.rate = e.r;
+  }
   // the short way, however often it has turned round
   const double ahead = wrapped(in.goal.yaw - state.yaw.angle);
   out.turn.yaw = turn(p.yaw, state.yaw, state.yaw.angle + ahead, e.yaw, e.r, dt);

@@ -71,12 +71,14 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
   predict(state.slow_roll, angle_rates.x(), dt);
   predict(state.slow_pitch, angle_rates.y(), dt);
   state.yaw += dt * angle_rates.z();
+  // the ground still carries it while the rotors take up speed
+  if (!settled && in.directive.stands && turns && !feels_level(state, p, s)) state.angles.lost = true;
   if (settled) {
     state.roll = s.roll;
     state.pitch = s.pitch;
     if (!state.has_flown) state.zero_yaw = s.yaw;
     state.yaw = wrapped(s.yaw - state.zero_yaw);
-    if (s.answers > 0) feel_weight(state, p, s);
+    if (s.answers > 0) state.angles = {.lost = !feels_level(state, p, s)};
     rest(state.slow_roll, s.roll, angle_rates.x());
     rest(state.slow_pitch, s.pitch, angle_rates.y());
   }

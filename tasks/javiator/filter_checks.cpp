@@ -55,12 +55,11 @@ void watch_drift(JaviatorFilter::State& state, const JaviatorFilter::Param& p, c
                       drifts(state.pitch - state.slow_pitch.angle, state.pitch_off);
 }
 
-void feel_weight(JaviatorFilter::State& state, const JaviatorFilter::Param& p, const JaviatorSensors& s) {
+bool feels_level(JaviatorFilter::State& state, const JaviatorFilter::Param& p, const JaviatorSensors& s) {
   const double roll = std::atan2(-s.a_y, -s.a_z), pitch = std::atan2(s.a_x, std::hypot(s.a_y, s.a_z));
   state.slant_roll += 0.05 * (roll - s.roll - state.slant_roll);
   state.slant_pitch += 0.05 * (pitch - s.pitch - state.slant_pitch);
-  const bool level = std::abs(state.slant_roll) < p.angle_jump && std::abs(state.slant_pitch) < p.angle_jump;
-  state.angles = {.lost = !level};
+  return std::abs(state.slant_roll) < p.angle_jump && std::abs(state.slant_pitch) < p.angle_jump;
 }
 
 }  // namespace jarol::tasks

@@ -21,7 +21,8 @@ void compare_pull(JaviatorFilter::State& state, const JaviatorFilter::Param& p, 
 /// Angles that drift against the rates are not believed.
 void watch_drift(JaviatorFilter::State& state, const JaviatorFilter::Param& p, const JaviatorSensors& s, double dt);
 
-/// Angles that disagree with the weight that it feels on the ground are not believed: it does not fly with them.
-void feel_weight(JaviatorFilter::State& state, const JaviatorFilter::Param& p, const JaviatorSensors& s);
+/// While the ground carries it. Angles that disagree with the weight that it feels are not believed: it does not fly
+/// with them.
+bool feels_level(JaviatorFilter::State& state, const JaviatorFilter::Param& p, const JaviatorSensors& s);
 
 }  // namespace jarol::tasks

@@ -1,5 +1,6 @@
 #include "tasks/javiator/flight_logic.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -53,6 +54,7 @@ void enter(FlightState next, Cause cause, FlightLogic::State& state, FlightDirec
   d.state = next;
   d.cause = cause;
   state.since = state.still = state.lies_over = state.without_lift = 0;
+  state.settles = false;
 }
 
 // Where it comes to rest; but in a turn, or where its lasers have not seen enough, along the walls that it can see.
@@ -67,24 +69,50 @@ double find_yaw(Cause cause, const FlightEstimate& e, bool wants_position) {
   return e.yaw + quarter * std::round(heading / quarter) - e.heading;
 }
 
-void begin_landing(Cause cause, const FlightEstimate& e, FlightLogic::State& state, FlightDirective& d) {
-  enter(FlightState::landing, cause, state, d);
-  // straight down from where it can stop
+// Straight down from where it can stop.
+void stay_here(const FlightEstimate& e, FlightDirective& d) {
   d.roll = d.pitch = 0;
   d.x = e.x + 0.5 * e.v_x;
   d.y = e.y + 0.5 * e.v_y;
+}
+
+void begin_landing(Cause cause, const FlightEstimate& e, FlightLogic::State& state, FlightDirective& d) {
+  enter(FlightState::landing, cause, state, d);
+  stay_here(e, d);
   d.yaw = find_yaw(cause, e, d.hold_position);
   d.altitude = 0;
 }
 
-void follow(const PilotCommand& command, bool wants_position, FlightDirective& d) {
+void see_wall(const PlaceFix& fix, Walls& walls) {
+  if (fix.is_new) (fix.range > 0 ? walls.ahead : walls.behind) = fix.place + fix.range;
+}
+
+// No nearer than half of its span and what it overshoots, but for where it took off.
+double before_walls(double place, const Walls& walls) {
+  constexpr double margin = 1.5;  // m
+  return std::clamp(place, std::min(walls.behind + margin, 0.0), std::max(walls.ahead - margin, 0.0));
+}
+
+void follow(const PilotCommand& command, const FlightEstimate& e, bool wants_position, FlightLogic::State& state,
+            FlightDirective& d) {
+  constexpr double ground = 0.02, low = 0.3;  // m; below it a lean brings feet near the ground
+  constexpr double near = 0.5, fast = 1;      // m, m/s
   d.hold_position = wants_position;
+  d.yaw = command.yaw;
+  d.altitude = std::max(command.altitude, 0.0);
+  // told to go to the ground it comes down where it is, wherever else it is told to be
+  const bool to_ground = command.altitude <= ground;
+  const bool settles = wants_position && to_ground && !d.stands && e.altitude_known && e.altitude < low;
+  if (settles && !state.settles) stay_here(e, d);
+  state.settles = settles;
+  if (settles) return;
   d.roll = command.roll;
   d.pitch = command.pitch;
-  d.yaw = command.yaw;
-  d.altitude = command.altitude;
-  d.x = command.x;
-  d.y = command.y;
+  d.x = before_walls(command.x, state.walls_x);
+  d.y = before_walls(command.y, state.walls_y);
+  const bool is_far = !to_ground && std::hypot(d.x - e.x, d.y - e.y) > near;
+  if (wants_position && !d.stands && (is_far || std::hypot(e.v_x, e.v_y) > fast))
+    d.altitude = std::max(d.altitude, low);
 }
 
 // the operator's keys: unlock, take off, land
@@ -94,6 +122,7 @@ void press_switch(const FlightEstimate& e, FlightLogic::State& state, FlightDire
     case FlightState::ground:
       // after a landing that nobody wanted the key may have been meant to land: it only acknowledges
       enter(d.cause == Cause::none ? FlightState::starting : FlightState::ground, Cause::none, state, d);
+      state.walls_x = state.walls_y = {};  // places are counted from here
       break;
     case FlightState::starting: enter(FlightState::ground, Cause::none, state, d); break;
     case FlightState::flying: begin_landing(Cause::none, e, state, d); break;
@@ -110,6 +139,8 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   const double dt = seconds(tick.period);
   state.since += dt;
   state.unheard = command.heard ? 0 : state.unheard + dt;
+  see_wall(e.fix_x, state.walls_x);
+  see_wall(e.fix_y, state.walls_y);
   const bool wants_position = command.mode_switches % 2 == 1;
 
   if (command.shut_downs != state.shut_downs) {
@@ -140,14 +171,17 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
     } else if (cause != Cause::none) {
       begin_landing(cause, e, state, d);
     } else {
-      follow(command, wants_position, d);
+      follow(command, e, wants_position, state, d);
     }
   }
   if (d.state == FlightState::landing) {
     d.hold_position = e.position_known;
     // what fails only now is reported, too; that nobody is heard any more is nothing then
     if (d.cause == Cause::none || d.cause == Cause::operator_lost)
-      if (const Cause cause = find_cause(p, in, wants_position, 0); cause != Cause::none) d.cause = cause;
+      if (const Cause cause = find_cause(p, in, wants_position, 0); cause != Cause::none) {
+        d.cause = cause;
+        if (cause == Cause::position_lost) d.yaw = find_yaw(cause, e, wants_position);
+      }
     // once it descends, only the ground can stop it or take its weight
     const bool still = e.altitude_known && e.altitude < 0.5 && std::abs(e.climb) < p.still;
     state.still = still || in.lift.thrust < p.light ? state.still + dt : 0;

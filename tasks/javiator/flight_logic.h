@@ -11,6 +11,13 @@
 
 namespace jarol::tasks {
 
+/// Where walls were seen along an axis, ahead and behind; nowhere near before.
+struct Walls {
+  double ahead = 1e9, behind = -1e9;
+
+  static constexpr auto fields() { return describe(field<&Walls::ahead>("m"), field<&Walls::behind>("m")); }
+};
+
 struct FlightLogic {
   static constexpr std::string_view summary = "decides when the helicopter starts, flies and lands";
   struct Param {
@@ -68,6 +75,8 @@ struct FlightLogic {
   };
   struct State {
     double since = 0, unheard = 0, still = 0, lies_over = 0, without_lift = 0;
+    bool settles = false;
+    Walls walls_x{}, walls_y{};
     std::uint32_t state_switches = 0, shut_downs = 0;
     TrimKeys trim{};
     static constexpr auto fields() {
@@ -76,6 +85,8 @@ struct FlightLogic {
                       field<&S::still>("s", "it has not moved up or down"),
                       field<&S::lies_over>("s", "it has leant like one that has overturned"),
                       field<&S::without_lift>("s", "it has not risen at full thrust"),
+                      field<&S::settles>("", "where it is, as it is to go to the ground"),
+                      field<&S::walls_x>("", "of the room, which it keeps away from"), field<&S::walls_y>(),
                       field<&S::state_switches>("", "of the operator, up to now"),
                       field<&S::shut_downs>("", "likewise"), field<&S::trim>("", "likewise"));
     }

@@ -32,6 +32,7 @@ void OriginalLogic::run(const Param& p, const Tick& tick, const In& in, State& s
   state.state_switches = command.state_switches;
   state.shut_downs = command.shut_downs;
 
+  const double idle = in.gains.idle.value_or(p.idle);
   // whole periods, as it counts them
   if (shut_down || state.unheard > p.patience + 0.5 * seconds(tick.period)) {
     d = {.cause = shut_down ? LandingCause::none : LandingCause::operator_lost,
@@ -41,13 +42,17 @@ void OriginalLogic::run(const Param& p, const Tick& tick, const In& in, State& s
     d.cause = LandingCause::none;
     if (d.state == FlightState::ground) {
       d.state = FlightState::starting;
-      state.revs = 0;
+      // where rotors have not run down it flies on at once
+      if (state.revs > 0) state.revs = idle;
     } else {
       d.state = FlightState::ground;
     }
-  } else if (d.state == FlightState::starting && (state.revs += p.rev_step) >= in.gains.idle.value_or(p.idle)) {
+  } else if (d.state == FlightState::starting && (state.revs += p.rev_step) >= idle) {
     d.state = FlightState::flying;
+  } else if (d.state == FlightState::ground) {
+    state.revs = std::max(state.revs - p.rev_step, 0.0);
   }
+  if (d.state == FlightState::halt) state.revs = 0;
   trim(command, in.estimate, state.trim, d);
   if (!command.heard) return;
   d.hold_position = command.mode_switches % 2 == 1;
@@ -71,7 +76,8 @@ void OriginalPosition::run(const Param& p, const Tick& tick, const In& in, State
     // near its goal it corrects seldom
     const auto hold = [&](double error, double speed, double acceleration, double& integral, std::uint32_t& waited,
                           double& lean) {
-      const double periods = p.regularity / (std::abs(error) + 1);
+      // whole numbers, of periods and mm
+      const double periods = std::floor(p.regularity / (std::floor(std::abs(error)) + 1));
       if (static_cast<double>(++waited) < periods) return;
       waited = 0;
       integral = std::clamp(integral + error * dt, -160.0, 160.0);

@@ -72,7 +72,11 @@ void OriginalFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   const double dt = seconds(tick.period);
   const bool fresh = s.answers != state.answers;
   state.answers = s.answers;
-  const bool settled = in.directive.state == FlightState::halt || in.directive.state == FlightState::ground;
+  // not before its motors stand: it may still be in the air
+  constexpr double run_down = 2.4;  // s
+  const bool is_off = in.directive.state == FlightState::halt || in.directive.state == FlightState::ground;
+  state.turning = is_off ? std::max(state.turning - dt, 0.0) : run_down;
+  const bool settled = is_off && state.turning == 0;
 
   // where and as it stands before take-off is the origin, and its heading zero
   if (settled) state.zero_yaw = state.unwrapped_yaw = s.yaw;

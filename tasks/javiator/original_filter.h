@@ -48,6 +48,7 @@ struct OriginalFilter {
     AxisKalman x{}, y{}, z{};
     double roll = 0, pitch = 0, yaw = 0;
     double zero_x = 0, zero_y = 0, zero_z = 0, zero_yaw = 0, unwrapped_yaw = 0;
+    double turning = 0;
     std::uint32_t answers = 0;
     static constexpr auto fields() {
       using S = State;
@@ -55,6 +56,7 @@ struct OriginalFilter {
                       field<&S::pitch>("rad"), field<&S::yaw>("rad"), field<&S::zero_x>("mm", "where it stood"),
                       field<&S::zero_y>("mm"), field<&S::zero_z>("mm"), field<&S::zero_yaw>("rad"),
                       field<&S::unwrapped_yaw>("rad", "all turns counted"),
+                      field<&S::turning>("s", "for which its rotors may still run down"),
                       field<&S::answers>("", "of the Robostix, up to now"));
     }
   };

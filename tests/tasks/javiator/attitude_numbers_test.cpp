@@ -60,6 +60,22 @@ TEST_SUITE("tasks/javiator_control/attitude") {
     }
   }
 
+  TEST_CASE("a heading that is counted anew is the same, and one that it was turned to while it stood is its own") {
+    for (const double yaw : {6.283185307179586, 3.5, 1.0}) {
+      CAPTURE(yaw);
+      Attitude a{axes[2]};
+      a.state.yaw.angle = yaw;
+      a.in.estimate.yaw = yaw > 6 ? 0 : 0.2;
+      a.in.goal.yaw = a.in.estimate.yaw;
+      CHECK(a.run() == doctest::Approx(0).scale(1).epsilon(1e-12));
+      CHECK(a.run(100) == doctest::Approx(0).scale(1).epsilon(1e-12));
+    }
+    // what wind turns it by in flight it turns back
+    Attitude a{axes[2]};
+    a.in.estimate.yaw = -0.2;
+    CHECK(a.run() == doctest::Approx(0.2).scale(0).epsilon(0.01));
+  }
+
   TEST_CASE("a goal is approached as a critically damped system of the second order would, whose effort is known") {
     for (const Axis& axis : axes) {
       Attitude a{axis};

@@ -133,6 +133,22 @@ TEST_SUITE("tasks/javiator_filter") {
     CHECK(heard.run(200).attitude_known);
   }
 
+  TEST_CASE("nor are they while its rotors take up speed and the ground still carries it") {
+    Heard heard;
+    heard.run(100);
+    heard.sensors.roll = 0.2;  // just before the key
+    heard.run(3);
+    heard.directive.state = FlightState::starting;
+    heard.directive.stands = true;
+    CHECK(heard.run(5).attitude_known);
+    CHECK_FALSE(heard.run(40).attitude_known);
+    // in the air the weight is not felt
+    Heard flying;
+    flying.lift_to(1);
+    flying.sensors.a_y = 3;
+    CHECK(flying.run(40).attitude_known);
+  }
+
   TEST_CASE("sensors that repeat themselves are stuck") {
     Heard heard;
     heard.lift_to(1);

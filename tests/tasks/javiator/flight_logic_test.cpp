@@ -65,6 +65,76 @@ TEST_SUITE("tasks/flight_logic") {
     CHECK(logic.out.directive.altitude == 0);
   }
 
+  TEST_CASE("a place is commanded no nearer to a wall that it has seen than 1.5 m, counted from where it takes off") {
+    Logic logic;
+    logic.in.command.mode_switches = 1;
+    logic.fly();
+    logic.in.command.x = 30;
+    logic.in.command.y = -30;
+    logic.run(1);
+    CHECK(logic.out.directive.x == 30);
+    logic.in.estimate.fix_x = {.place = 2, .range = 6, .is_new = true};
+    logic.in.estimate.fix_y = {.place = -1, .range = -4, .is_new = true};
+    logic.run(1);
+    CHECK(logic.out.directive.x == 6.5);
+    CHECK(logic.out.directive.y == -3.5);
+    // it may always go back to where it took off
+    logic.in.estimate.fix_y = {.place = 0, .range = -0.7, .is_new = true};
+    logic.run(1);
+    CHECK(logic.out.directive.y == 0);
+    logic.in.estimate.fix_x.is_new = logic.in.estimate.fix_y.is_new = false;
+    logic.run(1);
+    CHECK(logic.out.directive.x == 6.5);
+    logic.press();
+    logic.in.lift.thrust = 0;
+    CHECK(logic.run(100) == FlightState::ground);
+    logic.in.lift.thrust = 1;
+    logic.press();
+    CHECK(logic.run(102) == FlightState::flying);
+    CHECK(logic.out.directive.x == 30);
+  }
+
+  TEST_CASE("told to the ground it stays where it is from 30 cm on, and rises to 30 cm for the way to another place") {
+    Logic logic;
+    logic.in.command.mode_switches = 1;
+    logic.fly();
+    logic.in.command.altitude = 0;
+    logic.in.estimate.altitude = 0.31;
+    logic.in.command.x = 3;
+    logic.in.estimate.x = 0.2;
+    logic.in.estimate.v_x = 1.01;
+    logic.run(1);
+    CHECK(logic.out.directive.x == 3);
+    CHECK(logic.out.directive.altitude == 0.3);
+    logic.in.estimate.v_x = 0.99;
+    logic.run(1);
+    CHECK(logic.out.directive.altitude == 0);
+    logic.in.estimate.altitude = 0.29;
+    logic.in.estimate.v_x = 0.2;
+    logic.run(1);
+    CHECK(logic.out.directive.x == doctest::Approx(0.3));
+    CHECK(logic.out.directive.altitude == 0);
+    logic.in.estimate.x = 0.25;
+    logic.run(1);
+    CHECK(logic.out.directive.x == doctest::Approx(0.3));
+    logic.in.command.altitude = 0.1;
+    logic.run(1);
+    CHECK(logic.out.directive.x == 3);
+    CHECK(logic.out.directive.altitude == 0.3);
+    logic.in.estimate.x = 2.9;
+    logic.run(1);
+    CHECK(logic.out.directive.altitude == 0.1);
+    // what stands is not lifted
+    logic.in.estimate.x = 0;
+    logic.in.lift.stands = true;
+    logic.run(2);
+    CHECK(logic.out.directive.altitude == 0.1);
+    logic.in.command.altitude = -1;
+    logic.in.estimate.altitude = 1;
+    logic.run(1);
+    CHECK(logic.out.directive.altitude == 0);
+  }
+
   TEST_CASE("landing from a turn, or without a place, it turns along the nearest walls that its lasers can see") {
     Logic logic;
     logic.in.command.mode_switches = 1;

@@ -53,6 +53,34 @@ TEST_SUITE("tasks/original_control") {
     }
   }
 
+  TEST_CASE("the key pressed again while rotors run down flies on at once, and later starts from the ground") {
+    for (const int periods : {10, 150, 200}) {
+      CAPTURE(periods);
+      OriginalLogic::State logic;
+      OriginalLogic::Out directive;
+      OriginalMixer::Out motors;
+      const auto run = [&](std::uint32_t switches, int times) {
+        for (int i = 0; i < times; ++i) {
+          OriginalLogic::run({}, tick_of(0), {.command = {.state_switches = switches}}, logic, directive);
+          OriginalMixer::run({}, tick_of(0), {.lift = {1}, .directive = directive.directive}, motors);
+        }
+        return directive.directive.state;
+      };
+      run(1, 1);
+      run(2, 1);
+      CHECK(run(2, 160) == FlightState::flying);
+      CHECK(run(3, periods) == FlightState::ground);
+      run(4, 1);
+      CHECK(run(4, 1) == (periods < 160 ? FlightState::flying : FlightState::starting));
+      double most = 0;
+      for (int i = 0; i < 200; ++i) {
+        run(4, 1);
+        most = std::max(most, motors.motors.signals[0]);
+      }
+      CHECK(most == 8000);
+    }
+  }
+
   TEST_CASE(
       "rolling right takes from the right rotor, noses up give to the front, yaw to the right to right and left") {
     OriginalMixer::Out out;
@@ -91,5 +119,21 @@ TEST_SUITE("tasks/original_control") {
     }
     OriginalPosition::run({}, tick_of(99), in, state, out);
     CHECK(out.goal.pitch < 0);
+  }
+
+  TEST_CASE("it counts periods between corrections in whole numbers: from 0.5 m on it corrects in each") {
+    struct Case {
+      double error;
+      int periods;
+    };
+    for (const Case& c : {Case{0.6, 1}, Case{0.5, 1}, Case{0.499, 2}, Case{0.334, 2}, Case{0.332, 3}}) {
+      CAPTURE(c.error);
+      OriginalPosition::State state;
+      OriginalPosition::Out out;
+      const OriginalPosition::In in{.directive = {.state = FlightState::flying, .hold_position = true, .x = c.error}};
+      int run = 0;
+      while (out.goal.pitch == 0) OriginalPosition::run({}, tick_of(run), in, state, out), ++run;
+      CHECK(run == c.periods);
+    }
   }
 }
