@@ -30,6 +30,8 @@ void Archive::value(const Type& type, void* value) {
     const std::size_t before = to_->size();
     to_->resize(before + packed_size(type, value));
     pack(type, value, to_->data() + before);
+    if (const std::string wrong = wrong_packed(type, std::span(*to_).subspan(before)); !wrong.empty())
+      throw NotSaveable("a " + type.name + " " + wrong);
     return;
   }
   std::size_t size = 0;

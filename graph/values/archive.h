@@ -48,7 +48,8 @@ class Archive {
   void require(bool good, const char* what) const;
 
   void bytes(void* data, std::size_t size);
-  /// By its description; one of changing size in whatever memory it lives in.
+  /// By its description; one of changing size in whatever memory it lives in. Saving, throws NotSaveable where that
+  /// could not be restored: a bool with another byte than 0 or 1.
   void value(const Type& type, void* value);
   /// The same number when it is restored.
   void same(std::uint64_t number, const char* what);

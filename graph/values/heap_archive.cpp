@@ -15,6 +15,13 @@ std::size_t size_of_class(std::size_t index) {
   return ((index - 4) % 4 + 5) << (exponent - 3);
 }
 
+// Of such alone some bytes are no value.
+bool has_bool(const Type& type) {
+  if (type.element != nullptr) return has_bool(*type.element);
+  return type.kind == Kind::boolean || std::any_of(type.fields.begin(), type.fields.end(),
+                                                   [](const TypeField& field) { return has_bool(*field.type); });
+}
+
 }  // namespace
 
 // Free blocks as they will be used: the next one of each size first.
@@ -82,7 +89,7 @@ void HeapArchive::elements_of(const Type& type, void* value) {
     type.lie_in(value, heap_.values(), elements, length, capacity);
   }
   if (type.element == nullptr) return archive_.bytes(elements, length);
-  if (flat && !archive_.restores()) return archive_.bytes(elements, length * size);
+  if (flat && !archive_.restores() && !has_bool(*type.element)) return archive_.bytes(elements, length * size);
   for (std::size_t i = 0; i < length; ++i) {
     std::byte* const element = elements + i * size;
     flat ? archive_.value(*type.element, element) : deep(*type.element, element);

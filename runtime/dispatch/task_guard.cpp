@@ -36,12 +36,15 @@ Outcome TaskGuard::run_guarded(const TaskMemory& memory, const Tick& tick) {
   return outcome;
 }
 
-std::optional<std::uint32_t> TaskGuard::find_owner(const void* address) {
+std::optional<TaskGuard::Owner> TaskGuard::find_owner(const void* address) {
   const TaskGuard* const of = guard.load();
   if (of == nullptr || of->state_ == nullptr) return std::nullopt;
+  const auto lies_in = [&](std::span<const std::byte> memory) {
+    return memory.data() <= address && address < memory.data() + memory.size();
+  };
   for (std::uint32_t task = 0; task < of->runs_.size(); ++task) {
-    const std::span<const std::byte> pages = of->state_->pages_of(task);
-    if (pages.data() <= address && address < pages.data() + pages.size()) return task;
+    if (lies_in(of->state_->pages_of(task))) return Owner{task, false};
+    if (lies_in(of->state_->parameters_of(task))) return Owner{task, true};
   }
   return std::nullopt;
 }

@@ -1,4 +1,4 @@
-// Tasks that can write to nothing but their own memory and their stack.
+// Tasks that can write to nothing but their own inputs, state, outputs and heap, and their stack.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,12 @@ class TaskGuard {
   /// From now on the tasks of that state, of a plan with Spacing::pages, run under it, by one thread.
   void take(RunState& state);
 
+  struct Owner {
+    std::uint32_t task = 0;
+    bool has_parameters_there = false;
+  };
   /// The task to whose memory an address belongs, if any; for handlers of signals.
-  static std::optional<std::uint32_t> find_owner(const void* address);
+  static std::optional<Owner> find_owner(const void* address);
 
  private:
   static Outcome run_guarded(const TaskMemory& memory, const Tick& tick);

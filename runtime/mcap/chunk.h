@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/machine/large_pages.h"
 #include "runtime/machine/prefetch.h"
 #include "runtime/mcap/crc32.h"
 #include "runtime/mcap/records.h"
@@ -74,14 +75,17 @@ class Chunk {
     return at;
   }
   [[gnu::cold]] void grow(std::size_t bytes) {
-    const std::size_t capacity = std::max({2 * capacity_, size_ + bytes, std::size_t{1} << 16});
-    auto larger = std::make_unique_for_overwrite<std::byte[]>(capacity);
+    // what is filled quickly is soon on a large page
+    constexpr std::size_t first = std::size_t{1} << 16, quickly = std::size_t{1} << 18;
+    std::size_t capacity = std::max({2 * capacity_, size_ + bytes, first});
+    if (capacity > quickly) capacity = std::max(capacity, large_page);
+    LargeMemory larger = make_large(capacity);
     if (size_ > 0) std::memcpy(larger.get(), memory_.get(), size_);
     memory_ = std::move(larger);
     capacity_ = capacity;
   }
 
-  std::unique_ptr<std::byte[]> memory_;
+  LargeMemory memory_;
   std::size_t capacity_ = 0, size_ = 0;
   std::vector<std::vector<IndexEntry>> entries_;
   std::optional<std::uint32_t> crc_;  // once sealed

@@ -40,13 +40,14 @@ Layout::Layout(const Graph& graph, const std::vector<std::uint32_t>& order, Spac
 void Layout::place_apart(const Graph& graph, std::uint32_t i) {
   const TaskClass& c = *graph.tasks[i].task_class;
   const bool heap = has_heap(graph.tasks[i]);
-  const std::size_t alignment =
-      std::max({c.in->alignment, c.parameters->alignment, c.state->alignment, c.out->alignment, heap ? line : 1});
+  const std::size_t alignment = std::max({c.in->alignment, c.state->alignment, c.out->alignment, heap ? line : 1});
+  // they are read, never written
+  place(0, page);
+  tasks[i].parameters = place(*c.parameters);
   tasks[i].begin = place(0, page);
   const auto place_from = [&](std::size_t begin) {
     size = begin;
     tasks[i].in = place(*c.in);
-    tasks[i].parameters = place(*c.parameters);
     tasks[i].state = place(*c.state);
     tasks[i].out = place(*c.out);
     place_heap(graph, i);

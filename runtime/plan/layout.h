@@ -19,7 +19,7 @@ struct Layout {
 
   struct OfTask {
     std::size_t parameters = 0, in = 0, state = 0, out = 0, book = 0, heap = 0, kept = 0;
-    std::size_t begin = 0, end = 0;  // with Spacing::pages: all of them lie between these
+    std::size_t begin = 0, end = 0;  // with Spacing::pages: all that is written lies between these
   };
   struct OfCommunicator {
     std::size_t value = 0, input = 0, taken = 0;

@@ -26,8 +26,8 @@ struct Indices {
   std::uint32_t count = 0;
   std::uint32_t last() const { return first + count; }
 
-  template <class T>
-  std::span<const T> of(const std::vector<T>& all) const {
+  template <class T, class A>
+  std::span<const T> of(const std::vector<T, A>& all) const {
     return {all.data() + first, count};
   }
 };

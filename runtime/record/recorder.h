@@ -17,6 +17,7 @@
 
 #include "graph/values/value.h"
 #include "runtime/machine/copy_fresh.h"
+#include "runtime/machine/large_pages.h"
 #include "runtime/machine/prefetch.h"
 #include "runtime/plan/output.h"
 #include "runtime/record/large_values.h"
@@ -139,7 +140,7 @@ class Recorder {
   std::optional<Duration> disorder_;    // none: all comes in order
   std::multimap<Duration, Held> held_;  // by instant, then as they came
   Duration newest_{};                   // instant of a value held
-  std::unique_ptr<std::byte[]> memory_;
+  LargeMemory memory_;
   std::size_t bytes_[chunks] = {};  // filled part of each chunk; more than it has: a large value in its place
   LargeValues<chunks> large_;
   std::byte* now_ = nullptr;

@@ -60,14 +60,14 @@ struct Publish {
   ShortRange<Publication> publications;
 };
 
-/// One task of a group, run at its release.
-struct Activation {
+/// One task of a group, run at its release. What of one with a LET is read lies in one cache line.
+struct alignas(64) Activation {
   Thunk run = nullptr;
   Body body = nullptr;  // instead, for a task whose outputs are checked at the end of its LET; else null
   TaskMemory memory;    // its fault text is the TaskStatus
-  Publish publish;      // empty for a task with a LET
   std::uint32_t task = 0;
   std::uint32_t connections = 0;  // to and from others at its release
+  Publish publish;                // empty for a task with a LET
   bool has_let = false;
   bool publishes_deep = false;  // into memory that other producers may write as well
 };

@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "runtime/machine/large_pages.h"
+
 namespace jarol {
 
 class CalendarQueue {
@@ -107,8 +109,8 @@ class CalendarQueue {
     return min;
   }
 
-  std::vector<Group> groups_;
-  std::vector<std::uint32_t> days_;  // the first of each list; a power of two of them
+  LargeVector<Group> groups_;
+  LargeVector<std::uint32_t> days_;  // the first of each list; a power of two of them
   std::vector<std::uint32_t> due_;   // room for all groups
   int shift_ = 0;                    // a day is 2^shift ns
   std::int64_t next_ = never;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <new>
 
 namespace jarol {
 
@@ -16,7 +15,7 @@ RunState::RunState(const Plan& of, std::span<const expect::Signal> tapped)
       recent_faults(of.graph.tasks.size()),
       releases(of.groups.size()),
       tapped_(tapped),
-      arena_(make_arena(of.layout)) {
+      arena_(make_large(of.layout.size, of.layout.spacing == Spacing::pages ? Layout::page : Layout::line)) {
   std::memset(arena_.get(), 0, of.layout.size);
   first_states_.reserve(of.graph.tasks.size());
   for (std::size_t i = 0; i < of.graph.tasks.size(); ++i) make_task(i);
@@ -28,13 +27,6 @@ RunState::RunState(const Plan& of, std::span<const expect::Signal> tapped)
   reserve_actions();
   for (const Plan::Group& group : of.groups) make_group(group);
 }
-
-RunState::Arena RunState::make_arena(const Layout& layout) {
-  const std::align_val_t alignment{layout.spacing == Spacing::pages ? Layout::page : Layout::line};
-  return {static_cast<std::byte*>(::operator new(layout.size, alignment)), {alignment}};
-}
-
-void RunState::Release::operator()(std::byte* memory) const { ::operator delete(memory, alignment); }
 
 const std::byte* RunState::source_of(const End& end) const {
   if (end.kind == End::Kind::communicator) return at(plan.layout.communicators[end.index].value);

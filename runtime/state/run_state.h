@@ -12,6 +12,7 @@
 #include "graph/model/graph.h"
 #include "graph/values/archive.h"
 #include "graph/values/heap.h"
+#include "runtime/machine/large_pages.h"
 #include "runtime/plan/plan.h"
 #include "runtime/state/actions.h"
 #include "runtime/state/release_queue.h"
@@ -27,9 +28,12 @@ class RunState {
   RunState(const RunState&) = delete;
   RunState& operator=(const RunState&) = delete;
 
-  /// Of a plan with Spacing::pages: whole pages with all that belongs to the task.
+  /// Of a plan with Spacing::pages: whole pages with all of the task but its parameters.
   std::span<std::byte> pages_of(std::size_t task) const {
     return {at(plan.layout.tasks[task].begin), at(plan.layout.tasks[task].end)};
+  }
+  std::span<const std::byte> parameters_of(std::size_t task) const {
+    return {at(plan.layout.tasks[task].parameters), plan.graph.tasks[task].task_class->parameters->size};
   }
 
   /// Before the first instant: other parameters of that task than the plan's graph has.
@@ -42,9 +46,9 @@ class RunState {
   const Plan& plan;
 
   // with addresses, in the order of the plan
-  std::vector<Activation> activations;
-  std::vector<LetEnd> let_ends;
-  std::vector<LetOutputs> let_outputs;  // per group
+  LargeVector<Activation> activations;
+  LargeVector<LetEnd> let_ends;
+  LargeVector<LetOutputs> let_outputs;  // per group
   std::vector<CommunicatorAction> outs, ins;
 
   std::vector<TaskStatus> status;      // per task
@@ -56,15 +60,9 @@ class RunState {
   std::vector<std::byte> tap_news;     // per tapped signal: 1, where that was since somebody put it to 0
   std::vector<std::vector<std::int64_t>> recent_faults;  // per task: activations that count for its fault_limit
   ReleaseQueue release_queue;                            // when each group is due
-  std::vector<std::int64_t> releases;                    // per group: how often it was due
+  LargeVector<std::int64_t> releases;                    // per group: how often it was due
 
  private:
-  struct Release {
-    std::align_val_t alignment{Layout::line};
-    void operator()(std::byte* memory) const;
-  };
-  using Arena = std::unique_ptr<std::byte, Release>;
-  static Arena make_arena(const Layout& layout);
   // a deep value in the arena whose memory is not a private heap
   struct Destroy {
     const Type* type = nullptr;
@@ -101,17 +99,17 @@ class RunState {
   Copy tap_of(std::size_t i) const;
 
   std::span<const expect::Signal> tapped_;
-  Arena arena_;
+  LargeMemory arena_;
   std::pmr::unsynchronized_pool_resource communicator_memory_;  // of deep values; no more than they need
   std::vector<std::unique_ptr<std::byte, Destroy>> owned_;
   std::vector<std::uint64_t> tap_memory_;
   std::vector<Value> first_states_;  // of tasks that are restarted, where they are deep
   std::vector<DeepInput> deep_inputs_;
   std::vector<DeepInput*> deep_input_of_;  // per connection, if there are any
-  std::vector<Copy> copies_;
+  LargeVector<Copy> copies_;
   std::vector<DeepCopy> deep_copies_;
-  std::vector<Publication> publications_;
-  std::vector<LetValue> let_values_;
+  LargeVector<Publication> publications_;
+  LargeVector<LetValue> let_values_;
 };
 
 }  // namespace jarol

@@ -7,7 +7,7 @@ namespace jarol {
 namespace {
 
 template <class T>
-ShortRange<T> from(const std::vector<T>& all, std::size_t first) {
+ShortRange<T> from(const LargeVector<T>& all, std::size_t first) {
   return {all.data() + first, static_cast<std::uint32_t>(all.size() - first)};
 }
 
@@ -65,9 +65,9 @@ Activation RunState::make_activation(std::uint32_t i) {
   return {is_recoverable(task) || has_heap(task) ? &run_with_care : task.task_class->run,
           is_checked_at_let_end(task) ? task.task_class->body : nullptr,
           {at(place.parameters), at(place.in), at(place.state), at(place.out), &status[i]},
-          task.let ? Publish{} : publish_of(End::Kind::task, i),
           i,
           static_cast<std::uint32_t>(connections),
+          task.let ? Publish{} : publish_of(End::Kind::task, i),
           task.let.has_value(),
           std::any_of(readers.begin(), readers.end(),
                       [&](std::uint32_t reader) { return plan.graph.connections[reader].type->is_deep(); })};

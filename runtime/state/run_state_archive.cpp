@@ -21,7 +21,13 @@ std::int64_t count_before(Duration instant, Duration first, Duration period) {
 
 void RunState::serialize(Archive& archive, Duration covered) {
   archive.same(plan.outputs.size(), "is of other tasks");
-  for (std::size_t i = 0; i < plan.graph.tasks.size(); ++i) serialize_task(archive, i);
+  for (std::size_t i = 0; i < plan.graph.tasks.size(); ++i) {
+    try {
+      serialize_task(archive, i);
+    } catch (const NotSaveable& error) {
+      throw NotSaveable("task '" + plan.graph.tasks[i].name + "': " + error.what());
+    }
+  }
   for (DeepInput& input : deep_inputs_) {
     serialize_text(archive, input);
     archive(input.lost);

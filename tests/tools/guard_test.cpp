@@ -99,6 +99,7 @@ TEST_SUITE("tools/guard") {
                                Write{"global", "wrote to memory that is not its own, of 'guarded.so', at address 0x"},
                                Write{"library", "wrote to memory that is not its own"},
                                Write{"behind", "wrote to memory that is not its own at address 0x"},
+                               Write{"parameters", "wrote to the parameters of task 'wild' at address 0x"},
                                Write{"zero", "segmentation fault at address 0x0; the process ends\n"},
                                Write{"overflow", "stack overflow at address 0x"}}) {
       CAPTURE(write.where);
@@ -109,7 +110,7 @@ TEST_SUITE("tools/guard") {
       CHECK(process.output() == "");
     }
     // without it nobody notices
-    for (const std::string where : {"global", "library", "behind"})
+    for (const std::string where : {"global", "library", "behind", "parameters"})
       CHECK(report_of(graph_in(folder, where) + " --for 1s")["activations"] == 800);
   }
 

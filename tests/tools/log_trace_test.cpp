@@ -178,6 +178,10 @@ connections: [a.out -> b.in]
     CHECK(find(trace, "b 3 is left out").at("ts") == 30'000);
     CHECK(find(trace, "a 4 has not ended").at("ts") == 50'000);
     CHECK(trace.at("otherData").at("clock") == "real");
+    CHECK(command::run_jarol("log cat " + file + " --topic jarol/misses").output ==
+          "0.03 jarol/misses activation=2 ended_after=12345678 task=b left_out=0\n"
+          "0.03 jarol/misses activation=3 ended_after=-1 task=b left_out=1\n"
+          "0.05 jarol/misses activation=4 ended_after=-1 task=a left_out=0\n");
   }
 
   TEST_CASE("what was late by --execution has named tracks, too") {

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <bit>
+#include <cstring>
 #include <limits>
 
 #include "graph/values/heap_archive.h"
@@ -78,8 +79,9 @@ Everything some() {
 }
 
 // A heap with values in it, as a task has: they are not destroyed, they go with the heap.
-struct Owned {
-  explicit Owned(std::size_t bytes) : region(bytes / 16), heap(reinterpret_cast<std::byte*>(region.data()), bytes) {
+template <class T>
+struct OwnedBy {
+  explicit OwnedBy(std::size_t bytes) : region(bytes / 16), heap(reinterpret_cast<std::byte*>(region.data()), bytes) {
     detail::adopt(value, heap.values());
   }
   struct alignas(16) Line {
@@ -87,15 +89,17 @@ struct Owned {
   };
   std::vector<Line> region;
   PrivateHeap heap;
-  alignas(Deep) std::byte memory[sizeof(Deep)];
-  Deep& value = *new (memory) Deep{};
+  alignas(T) std::byte memory[sizeof(T)];
+  T& value = *new (memory) T{};
 
   void serialize(Archive& archive) {
     HeapArchive values(archive, heap);
-    values.value(type_of<Deep>(), &value);
+    values.value(type_of<T>(), &value);
     values.finish();
   }
 };
+using Owned = OwnedBy<Deep>;
+using Switches = OwnedBy<Sequence<bool>>;
 
 // What it does next: where its blocks come from, and when there is none left.
 std::string grow(Owned& owned) {
@@ -150,6 +154,18 @@ TEST_SUITE("graph/archive") {
     bytes = saved(deep);
     bytes.back() = std::byte{3};
     CHECK_THROWS_WITH_AS(restore(deep, bytes), "has a Deep that has 3 where true or false stand", ArchiveError);
+  }
+
+  TEST_CASE("what could not be restored is not saved") {
+    const auto make_wrong = [](bool& flag) { std::memset(&flag, 7, 1); };
+    Deep deep;
+    make_wrong(deep.flag);
+    CHECK_THROWS_WITH_AS(saved(deep), "a Deep has 7 where true or false stand", NotSaveable);
+    Switches switches(256);
+    switches.value.resize(3);
+    saved(switches);
+    make_wrong(switches.value[2]);
+    CHECK_THROWS_WITH_AS(saved(switches), "a bool has 7 where true or false stand", NotSaveable);
   }
 
   TEST_CASE("a heap goes on as it would have, with the blocks that were free, in another place") {

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
+#include <cstring>
 
 #include "graph/values/archive.h"
 #include "graph/values/seed.h"
@@ -51,11 +52,22 @@ struct Diary {
   }
 };
 
+// Writes where it may, but no value of the type.
+struct Careless {
+  static constexpr std::string_view summary = "for tests";
+  struct State {
+    bool flag = false;
+    static constexpr auto fields() { return describe(field<&State::flag>()); }
+  };
+  static void run(const Tick&, State& state) { std::memset(&state.flag, 7, 1); }
+};
+
 const Registry& registry() {
   static const Registry made = [] {
     Registry all;
     tasks::add_tasks(all);
     all.add(task_class<Diary>());
+    all.add(task_class<Careless>());
     return all;
   }();
   return made;
@@ -184,6 +196,14 @@ TEST_SUITE("runtime/checkpoint") {
     bytes = saved(first);
     bytes.emplace_back();
     CHECK_THROWS_WITH_AS(restore(third, bytes), "goes on after its state", ArchiveError);
+  }
+
+  TEST_CASE("a state that could not be restored is not saved, and its task is named") {
+    const Graph graph = tests::graph_of(registry(), "graph: t\ntasks: {a: {type: Careless, period: 1ms}}\n");
+    Executor executor(graph, {});
+    saved(executor);
+    executor.run_until(1ms);
+    CHECK_THROWS_WITH_AS(saved(executor), "task 'a': a State has 7 where true or false stand", NotSaveable);
   }
 
   TEST_CASE("a run that a fault has stopped is restored as one") {

@@ -9,18 +9,19 @@ using namespace jarol;
 
 double shared_number = 0;
 
-enum class Where : std::uint8_t { nowhere, task, plan, global, library, zero, input, behind, overflow };
+enum class Where : std::uint8_t { nowhere, task, plan, global, library, zero, input, behind, parameters, overflow };
 
 constexpr auto enumerators(Where) {
-  return std::array<Enumerator<Where>, 9>{{{"nowhere", Where::nowhere},
-                                           {"task", Where::task},
-                                           {"plan", Where::plan},
-                                           {"global", Where::global},
-                                           {"library", Where::library},
-                                           {"zero", Where::zero},
-                                           {"input", Where::input},
-                                           {"behind", Where::behind},
-                                           {"overflow", Where::overflow}}};
+  return std::array<Enumerator<Where>, 10>{{{"nowhere", Where::nowhere},
+                                            {"task", Where::task},
+                                            {"plan", Where::plan},
+                                            {"global", Where::global},
+                                            {"library", Where::library},
+                                            {"zero", Where::zero},
+                                            {"input", Where::input},
+                                            {"behind", Where::behind},
+                                            {"parameters", Where::parameters},
+                                            {"overflow", Where::overflow}}};
 }
 
 template <class T>
@@ -141,6 +142,7 @@ struct Wild {
       case Where::zero: return write_to(reinterpret_cast<const double*>(in.address & 0), 7.0);
       case Where::input: return write_to(&in.address, std::int64_t{7});  // its own all the same
       case Where::behind: return write_to(&out.out + 1, 7.0);
+      case Where::parameters: return write_to(&p.at, std::int64_t{7});
       case Where::overflow: {
         volatile int top = 0;
         out.out = dive_deeper(&top);

@@ -11,6 +11,17 @@
 #include "tools/report/exit_code.h"
 
 namespace jarol::tools {
+namespace {
+
+// A miss has its task's index.
+std::string cell_text(const Recording& recording, const RecordedInstants::Message& message, const MessageColumn& column,
+                      const MessageCell& cell) {
+  const std::vector<std::string>& tasks = recording.header().tasks;
+  const bool names_task = message.topic->channel.topic == topics::misses && column.path == "task";
+  return names_task && cell.bits < tasks.size() ? tasks[cell.bits] : text_of(column, cell);
+}
+
+}  // namespace
 
 int log_cat(const LogOptions& options) {
   const Recording recording(options.file);
@@ -30,7 +41,7 @@ int log_cat(const LogOptions& options) {
       const std::vector<MessageCell> cells = layout.read(message.data);
       for (std::size_t i = 0; i < cells.size(); ++i)
         std::cout << (layout.columns()[i].path.empty() ? "" : " ") << layout.columns()[i].path << "="
-                  << printable(text_of(layout.columns()[i], cells[i]));
+                  << printable(cell_text(recording, message, layout.columns()[i], cells[i]));
       std::cout << "\n";
     }
   }

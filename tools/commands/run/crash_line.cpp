@@ -142,7 +142,8 @@ bool is_stack_used_up(void* context) {
 void name_forbidden(Line& line, const void* address) {
   const Graph* const of = running_graph.load();
   if (const auto owner = TaskGuard::find_owner(address); owner && of != nullptr) {
-    line << "wrote to the memory of task '" << of->tasks[*owner].name << "'";
+    line << "wrote to the " << (owner->has_parameters_there ? "parameters" : "memory") << " of task '"
+         << of->tasks[owner->task].name << "'";
     return;
   }
   line << "wrote to memory that is not its own";
