@@ -5,7 +5,6 @@
 #include <cassert>
 #include <cstring>
 #include <memory>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +24,7 @@ class Chunk {
 
   /// The caller writes its data there.
   std::byte* add_message(std::uint16_t channel, std::uint32_t sequence, std::int64_t time, std::size_t size) {
+    if (size_ - summed_ >= summed_at_once) sum();
     const std::uint64_t offset = size_;
     std::byte* const at = room_for(message_head + size);
     prefetch_for_write(memory_.get(), capacity_, size_);
@@ -44,11 +44,13 @@ class Chunk {
     return at + message_head;
   }
 
-  /// Nothing comes after this. By the thread that has filled it: the records still are in the cache of its core, and
-  /// whoever writes them has less to do.
-  void seal() { crc_ = crc32(records()); }
+  /// Nothing comes after this. By the thread that has filled it, which has summed up nearly all of it on the way.
+  void seal() {
+    sum();
+    sealed_ = true;
+  }
   /// Of the records.
-  std::uint32_t crc() const { return crc_ ? *crc_ : crc32(records()); }
+  std::uint32_t crc() const { return crc32(records().substr(summed_), crc_); }
 
   std::string_view records() const { return {reinterpret_cast<const char*>(memory_.get()), size_}; }
   std::uint64_t messages() const { return messages_; }
@@ -59,8 +61,9 @@ class Chunk {
 
   /// Its memory stays.
   void clear() {
-    size_ = 0;
-    crc_.reset();
+    size_ = summed_ = 0;
+    crc_ = 0;
+    sealed_ = false;
     messages_ = 0;
     start_ = end_ = 0;
     for (auto& of_channel : entries_) of_channel.clear();
@@ -68,11 +71,17 @@ class Chunk {
 
  private:
   std::byte* room_for(std::size_t bytes) {
-    assert(!crc_);
+    assert(!sealed_);
     if (capacity_ - size_ < bytes) grow(bytes);
     std::byte* const at = memory_.get() + size_;
     size_ += bytes;
     return at;
+  }
+  // While the cache of the core still has it.
+  static constexpr std::size_t summed_at_once = std::size_t{1} << 15;
+  [[gnu::noinline]] void sum() {
+    crc_ = crc32(records().substr(summed_), crc_);
+    summed_ = size_;
   }
   [[gnu::cold]] void grow(std::size_t bytes) {
     // what is filled quickly is soon on a large page
@@ -87,8 +96,10 @@ class Chunk {
 
   LargeMemory memory_;
   std::size_t capacity_ = 0, size_ = 0;
+  std::size_t summed_ = 0;  // so many bytes
+  std::uint32_t crc_ = 0;   // of these
+  bool sealed_ = false;
   std::vector<std::vector<IndexEntry>> entries_;
-  std::optional<std::uint32_t> crc_;  // once sealed
   std::uint64_t messages_ = 0;
   std::int64_t start_ = 0, end_ = 0;  // ns
 };
