@@ -49,7 +49,8 @@ std::optional<std::int64_t> deadline_before(std::span<const TaskModel> models, s
   return latest;
 }
 
-// As far as demand goes, tasks of equal timing are one.
+// As far as demand goes, tasks of equal timing are one. Beyond full utilisation their WCETs may be no time that there
+// is.
 TaskModels merged(std::span<const TaskModel> models) {
   TaskModels sorted(models.begin(), models.end());
   const auto timing = [](const TaskModel& m) { return std::tuple(m.period, m.deadline, m.jitter, m.blocking); };
@@ -58,7 +59,7 @@ TaskModels merged(std::span<const TaskModel> models) {
   TaskModels result;
   for (const TaskModel& m : sorted) {
     if (!result.empty() && timing(result.back()) == timing(m)) {
-      result.back().wcet += m.wcet;
+      result.back().wcet = saturated(static_cast<Wide>(result.back().wcet) + m.wcet);
     } else {
       result.push_back(m);
     }
@@ -66,9 +67,10 @@ TaskModels merged(std::span<const TaskModel> models) {
   return result;
 }
 
-EdfResult check_edf_of(std::span<const TaskModel> models, bool preemptive, Budget& budget) {
+// `order`: of utilisation and one.
+EdfResult check_edf_of(std::span<const TaskModel> models, std::optional<std::strong_ordering> order, bool preemptive,
+                       Budget& budget) {
   EdfResult result;
-  const auto order = compare_utilisation(models, 1);
   std::int64_t blocking = 0;
   for (const TaskModel& m : models) blocking = std::max({blocking, m.blocking, preemptive ? 0 : m.wcet - 1});
   std::optional<std::int64_t> end;
@@ -95,7 +97,7 @@ EdfResult check_edf_of(std::span<const TaskModel> models, bool preemptive, Budge
     const Wide need = total(*at);
     if (need > *at) {
       const std::int64_t held = blocking_bound(models, *at, preemptive);
-      result.over = Demand{*at, static_cast<std::int64_t>(std::min<Wide>(need - held, far)), held};
+      result.over = Demand{*at, saturated(need - held), held};
       return result;
     }
     // shorter intervals have no more due, though perhaps more blocking: down to there none can exceed its length
@@ -109,7 +111,8 @@ EdfResult check_edf_of(std::span<const TaskModel> models, bool preemptive, Budge
 
 EdfResult check_edf(std::span<const TaskModel> models, bool preemptive, Budget& budget) {
   return within(budget, max_edf_steps, [&](Budget& own) {
-    return preemptive ? check_edf_of(merged(models), true, own) : check_edf_of(models, false, own);
+    const auto order = compare_utilisation(models, 1);
+    return preemptive ? check_edf_of(merged(models), order, true, own) : check_edf_of(models, order, false, own);
   });
 }
 

@@ -10,8 +10,9 @@ std::int64_t releases_due(const TaskModel& m, std::int64_t length) {
 }
 
 Wide demand_bound(std::span<const TaskModel> models, std::int64_t length) {
+  constexpr Wide max = static_cast<Wide>(1) << 125;  // beyond all lengths; more might be beyond 128 bits
   Wide sum = 0;
-  for (const TaskModel& m : models) sum += static_cast<Wide>(releases_due(m, length)) * m.wcet;
+  for (const TaskModel& m : models) sum = std::min(max, sum + static_cast<Wide>(releases_due(m, length)) * m.wcet);
   return sum;
 }
 

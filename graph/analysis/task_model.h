@@ -26,6 +26,11 @@ struct TaskModel {
   std::int64_t overhead = 0;  // the part of the WCET that is the platform's
 };
 
+/// A sum of times as one time: the longest that there is, where it is longer than that.
+inline std::int64_t saturated(Wide sum) {
+  return static_cast<std::int64_t>(std::min<Wide>(sum, std::numeric_limits<std::int64_t>::max()));
+}
+
 /// Of one core; most urgent first where priorities count.
 using TaskModels = std::vector<TaskModel>;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "graph/analysis/policies.h"
 #include "graph/analysis/system.h"
@@ -135,7 +136,9 @@ std::string shares_text(const CheckReport& r) {
 std::string demand_text(const CheckReport& r) {
   if (!r.result.demand) return shares_text(r);
   const analysis::Demand& d = *r.result.demand;
-  std::string text = fmt::format("  in an interval of {} work of {} is due", duration(d.length), duration(d.demand));
+  const bool longer = d.demand == std::numeric_limits<std::int64_t>::max();
+  std::string text = fmt::format("  in an interval of {} work of {}{} is due", duration(d.length),
+                                 longer ? "more than " : "", duration(d.demand));
   if (d.blocking > 0) text += fmt::format(", and {} can hold it up", duration(d.blocking));
   std::string parts;
   for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
