@@ -14,6 +14,7 @@
 #include "graph/language/key.h"
 #include "graph/language/quantities.h"
 #include "runtime/files/atomic_file.h"
+#include "tools/commands/check/all_paths.h"
 #include "tools/commands/check/check_graph.h"
 #include "tools/commands/check/gantt.h"
 #include "tools/commands/check/generate_graphs.h"

@@ -1,6 +1,9 @@
 #include "tools/commands/check/check_graph.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "tools/commands/check/all_paths.h"
 
 namespace jarol::tools {
 namespace {
@@ -16,49 +19,14 @@ double cost_of(const analysis::System& system) {
   return std::max(n * n, activations);
 }
 
-// Per task, whether a path leads from it to an `out`: where none does, there may be more ways than anyone can walk.
-std::vector<bool> tasks_before_outs(const Graph& graph) {
-  std::vector<bool> before(graph.tasks.size());
-  for (bool more = true; more;) {
-    more = false;
-    for (const Connection& c : graph.connections) {
-      if (c.from.kind != End::Kind::task || before[c.from.index]) continue;
-      if (c.to.kind == End::Kind::task && !before[c.to.index]) continue;
-      before[c.from.index] = more = true;
-    }
-  }
-  return before;
-}
-
-// Every path from an `in` to an `out`, as far as there are not too many.
-void add_paths(const Graph& graph, const std::vector<bool>& before_outs, std::vector<End>& path,
-               std::vector<ReportedChain>& paths) {
-  const End at = path.back();
-  if (at.kind == End::Kind::communicator && path.size() > 1) {
-    std::string name;
-    for (const End& end : path)
-      name += (name.empty() ? "" : " -> ") +
-              (end.kind == End::Kind::task ? graph.tasks[end.index].name : graph.communicators[end.index].name);
-    Chain chain;
-    chain.name = name;
-    chain.path = path;
-    paths.push_back({chain, analysis::latency_of(graph, path)});
-    return;
-  }
-  const auto same = [](const End& a, const End& b) { return a.kind == b.kind && a.index == b.index; };
-  std::vector<End> next;
-  for (const Connection& c : graph.connections) {
-    const auto is_to = [&](const End& end) { return same(end, c.to); };
-    if (!same(c.from, at) || std::any_of(path.begin(), path.end(), is_to)) continue;
-    if (c.to.kind == End::Kind::task && !before_outs[c.to.index]) continue;
-    if (!std::any_of(next.begin(), next.end(), is_to)) next.push_back(c.to);
-  }
-  for (const End& end : next) {
-    if (paths.size() > max_paths) return;
-    path.push_back(end);
-    add_paths(graph, before_outs, path, paths);
-    path.pop_back();
-  }
+// As a chain that the graph could name.
+Chain chain_of(const Graph& graph, std::vector<End> path) {
+  Chain chain;
+  for (const End& end : path)
+    chain.name += (chain.name.empty() ? "" : " -> ") +
+                  (end.kind == End::Kind::task ? graph.tasks[end.index].name : graph.communicators[end.index].name);
+  chain.path = std::move(path);
+  return chain;
 }
 
 }  // namespace
@@ -70,15 +38,13 @@ CheckReport check_graph(const std::string& file, const Graph& graph, bool sensit
   report.result = analysis::check(graph);
   for (const Chain& c : graph.chains) report.chains.push_back({c, analysis::latency_of(graph, c.path)});
   if (all_chains) {
-    std::vector<ReportedChain> paths;
-    const std::vector<bool> before_outs = tasks_before_outs(graph);
-    for (std::size_t i = 0; i < graph.communicators.size(); ++i) {
-      std::vector<End> path{{End::Kind::communicator, i, 0}};
-      if (graph.communicators[i].direction == Direction::in) add_paths(graph, before_outs, path, paths);
+    AllPaths all = all_paths(graph);
+    report.more_paths = all.more;
+    for (std::vector<End>& path : all.paths) {
+      Chain chain = chain_of(graph, std::move(path));
+      const analysis::ChainLatency latency = analysis::latency_of(graph, chain.path);
+      report.chains.push_back({std::move(chain), latency});
     }
-    report.more_paths = paths.size() > max_paths;
-    if (report.more_paths) paths.resize(max_paths);
-    report.chains.insert(report.chains.end(), paths.begin(), paths.end());
   }
   const bool stated = std::all_of(graph.tasks.begin(), graph.tasks.end(), [](const Task& t) { return t.wcet; });
   if (!stated) return report;

@@ -5,9 +5,6 @@
 
 namespace jarol::tools {
 
-/// Of paths beside the chains that the graph names, a report shows so many at most.
-inline constexpr std::size_t max_paths = 1000;
-
 /// Margins and suggestions come where they are found quickly, with `sensitivity` in any case; with `all_chains` also
 /// every path from an `in` to an `out`. The graph stays the caller's.
 CheckReport check_graph(const std::string& file, const Graph& graph, bool sensitivity, bool all_chains);
