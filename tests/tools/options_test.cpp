@@ -97,6 +97,28 @@ TEST_SUITE("tools/options") {
     CHECK(count == 1000);
   }
 
+  TEST_CASE("check: where not every way can be followed, a note says that there may be more paths") {
+    std::string text =
+        "graph: t\ntiming: {period: 10ms}\ncommunicators:\n  i: {type: double, direction: in}\n"
+        "  o: {type: double, direction: out}\ntasks:\n  a: {type: Sum, let: 10ms}\n";
+    std::string connections = "connections:\n  - i -> a.a\n  - a.out -> o\n", x = "a", y = "a";
+    for (int rung = 0; rung < 60; ++rung) {
+      const std::string n = std::to_string(rung);
+      for (const std::string side : {"x", "y"}) {
+        text += "  " + side + n + ": {type: Sum, let: 10ms}\n";
+        connections += "  - " + x + ".out -> " + side + n + ".a\n  - " + y + ".out -> " + side + n + ".b\n";
+      }
+      x = "x" + n;
+      y = "y" + n;
+    }
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", text + connections + "  - x59.out -> a.b\n");
+    const std::string reported = run_jarol("check --chains " + file).output;
+    CHECK(reported.starts_with(
+        "note: --chains reports 1 path, there may be more: to follow every way would take too long\n"));
+    CHECK(reported.find("\n  chain i -> a -> o: ") != std::string::npos);
+  }
+
   TEST_CASE("check: chains of the file are all judged, however many they are") {
     std::string text =
         "graph: t\ntiming: {period: 10ms}\ncommunicators:\n  i: {type: double, direction: in}\n"

@@ -14,7 +14,6 @@
 #include "graph/language/key.h"
 #include "graph/language/quantities.h"
 #include "runtime/files/atomic_file.h"
-#include "tools/commands/check/all_paths.h"
 #include "tools/commands/check/check_graph.h"
 #include "tools/commands/check/gantt.h"
 #include "tools/commands/check/generate_graphs.h"
@@ -103,9 +102,13 @@ void note_what_lacks(const CheckReport& report, const CheckOptions& options, std
     notes.push_back("no picture in '" + options.svg + "', as it needs a 'wcet' of every task");
   if (options.sensitivity && !report.sensitivity)
     notes.emplace_back("--sensitivity reports nothing, as it needs a 'wcet' of every task");
-  if (options.all_chains && report.chains.size() == report.graph->chains.size())
+  const std::size_t paths = report.chains.size() - report.graph->chains.size();
+  if (options.all_chains && paths == 0 && report.all_walked)
     notes.emplace_back("--chains reports nothing, as no path leads from an 'in' to an 'out'");
-  if (report.more_paths) notes.push_back("--chains reports " + std::to_string(max_paths) + " paths, there are more");
+  if (report.more_paths) notes.push_back("--chains reports " + std::to_string(paths) + " paths, there are more");
+  if (!report.all_walked)
+    notes.push_back("--chains reports " + std::to_string(paths) + (paths == 1 ? " path" : " paths") +
+                    ", there may be more: to follow every way would take too long");
 }
 
 void check_file(const std::string& file, const CheckOptions& options, Checked& checked) {

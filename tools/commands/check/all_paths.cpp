@@ -1,5 +1,6 @@
 #include "tools/commands/check/all_paths.h"
 
+#include <cstdint>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -17,13 +18,16 @@ class PathSearch {
         before_out_(graph.tasks.size(), false),
         on_path_(graph.tasks.size(), false) {
     std::set<std::tuple<End::Kind, std::size_t, End::Kind, std::size_t>> known;
-    for (const Connection& c : graph.connections)
-      if (known.emplace(c.from.kind, c.from.index, c.to.kind, c.to.index).second) after(c.from).push_back(c.to);
+    // what leaves at once comes first: beyond it there may be more ways than are walked
+    for (const End::Kind kind : {End::Kind::communicator, End::Kind::task})
+      for (const Connection& c : graph.connections)
+        if (c.to.kind == kind && known.emplace(c.from.kind, c.from.index, kind, c.to.index).second)
+          after(c.from).push_back(c.to);
     mark_before_outs();
   }
 
   AllPaths run() {
-    for (std::size_t i = 0; i < graph_.communicators.size() && !found_.more; ++i)
+    for (std::size_t i = 0; i < graph_.communicators.size() && !found_.more && found_.whole; ++i)
       if (graph_.communicators[i].direction == Direction::in) search_from({End::Kind::communicator, i, 0});
     return std::move(found_);
   }
@@ -61,6 +65,8 @@ class PathSearch {
         tried.pop_back();
         continue;
       }
+      found_.whole = ++steps_ <= max_steps;
+      if (!found_.whole) return;
       const End to = after(at)[tried.back()++];
       if (to.kind == End::Kind::communicator) {
         if (!add(path, to)) return;
@@ -81,7 +87,10 @@ class PathSearch {
     return true;
   }
 
+  static constexpr std::uint64_t max_steps = 10'000'000;
+
   const Graph& graph_;
+  std::uint64_t steps_ = 0;
   std::vector<std::vector<End>> after_task_, after_communicator_;  // each end once
   std::vector<bool> before_out_, on_path_;                         // per task
   AllPaths found_;

@@ -13,9 +13,11 @@ inline constexpr std::size_t max_paths = 1000;
 struct AllPaths {
   std::vector<std::vector<End>> paths;  // no more than `max_paths`
   bool more = false;                    // than these
+  bool whole = true;                    // else the search took too many steps, and there may be more
 };
 
-/// Of a valid graph; none goes through a task twice.
+/// Of a valid graph; none goes through a task twice. Ways that only lead back to themselves can be more than anyone can
+/// walk, so that the search ends after some millions of steps.
 AllPaths all_paths(const Graph& graph);
 
 }  // namespace jarol::tools

@@ -40,6 +40,7 @@ CheckReport check_graph(const std::string& file, const Graph& graph, bool sensit
   if (all_chains) {
     AllPaths all = all_paths(graph);
     report.more_paths = all.more;
+    report.all_walked = all.whole;
     for (std::vector<End>& path : all.paths) {
       Chain chain = chain_of(graph, std::move(path));
       const analysis::ChainLatency latency = analysis::latency_of(graph, chain.path);

@@ -28,6 +28,7 @@ struct CheckReport {
   std::vector<Remedy> remedies;
   std::vector<ReportedChain> chains;
   bool more_paths = false;  // than those of --chains
+  bool all_walked = true;   // else there may be more than those of --chains
   std::optional<Measurement> measured;
 };
 

@@ -55,4 +55,22 @@ TEST_SUITE("tools/all_paths") {
     CHECK(all.paths[0].size() == count + 2);
     CHECK_FALSE(all.more);
   }
+
+  TEST_CASE("where ways that lead back to their beginning are more than anyone can walk, the search ends and says so") {
+    std::string tasks = "  a: {type: Sum, let: 10ms}\n", connections = "  - i -> a.a\n  - a.out -> o\n";
+    constexpr int rungs = 60;
+    for (int k = 0; k < rungs; ++k)
+      for (const std::string side : {"x", "y"}) {
+        const std::string name = side + std::to_string(k), below = std::to_string(k - 1);
+        tasks += "  " + name + ": {type: Sum, let: 10ms}\n";
+        connections += "  - " + (k == 0 ? "a" : "x" + below) + ".out -> " + name + ".a\n  - " +
+                       (k == 0 ? "a" : "y" + below) + ".out -> " + name + ".b\n";
+      }
+    const Graph graph = built_of(tasks, connections + "  - x" + std::to_string(rungs - 1) + ".out -> a.b\n");
+    const tools::AllPaths all = tools::all_paths(graph);
+    REQUIRE(all.paths.size() == 1);
+    CHECK(names_of(graph, all.paths[0]) == std::vector<std::string>{"i", "a", "o"});
+    CHECK_FALSE(all.more);
+    CHECK_FALSE(all.whole);
+  }
 }
