@@ -246,7 +246,8 @@ void take_responses_of_orders(const CoreTasks& tasks, const Policy& policy, Core
   result.exact = true;
 }
 
-CoreResult decide(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Detail detail, Budget& budget) {
+CoreResult decide(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Detail detail, Budget& budget,
+                  Budget& walks) {
   const bool responses = detail != Detail::verdict, tight = detail == Detail::tight, whole = detail == Detail::whole;
   const TaskModels models = loads_of(tasks, policy);
   CoreResult any = check_any_phasing(models, policy, responses, budget);
@@ -268,8 +269,8 @@ CoreResult decide(const CoreTasks& tasks, const Policy& policy, bool offsets_hol
     if (whole && offsets_hold) take_responses_of_orders(tasks, policy, any, budget);
     return any;
   }
-  CoreResult given = policy.interrupts ? walk_preemptive(tasks, policy, whole && offsets_hold, budget)
-                                       : walk_nonpreemptive(tasks, policy, budget);
+  CoreResult given = policy.interrupts ? walk_preemptive(tasks, policy, whole && offsets_hold, walks)
+                                       : walk_nonpreemptive(tasks, policy, walks);
   // what bounds every shift bounds this one, and so do the deadlines that hold
   const bool held_up = !policy.interrupts && has_blocking(models);
   if ((given.verdict == Verdict::not_schedulable || held_up) && !given.exact) given.responses = any.responses;
@@ -296,7 +297,12 @@ CoreResult decide(const CoreTasks& tasks, const Policy& policy, bool offsets_hol
 }  // namespace
 
 CoreResult check_core(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Detail detail, Budget& budget) {
-  CoreResult result = decide(tasks, policy, offsets_hold, detail, budget);
+  return check_core(tasks, policy, offsets_hold, detail, budget, budget);
+}
+
+CoreResult check_core(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Detail detail, Budget& budget,
+                      Budget& walks) {
+  CoreResult result = decide(tasks, policy, offsets_hold, detail, budget, walks);
   // a reader that would go first does not, so that what the tests say of those behind it is too much; exploring knows
   const auto order = compare_utilisation(tasks.models, 1);
   const bool explored = offsets_hold && !policy.interrupts;

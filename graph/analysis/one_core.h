@@ -34,4 +34,9 @@ enum class Detail { verdict, whole, tight };
 /// Not for tables. Unknown where it would take more effort.
 CoreResult check_core(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Detail detail, Budget& budget);
 
+/// The same, where walks of all that offsets that hold let happen have a budget of their own: once that is spent, what
+/// is said of every shift stands.
+CoreResult check_core(const CoreTasks& tasks, const Policy& policy, bool offsets_hold, Detail detail, Budget& budget,
+                      Budget& walks);
+
 }  // namespace jarol::analysis

@@ -71,7 +71,7 @@ class Cores {
     }
   }
 
-  Result check(const std::vector<std::int64_t>& waits, Detail detail, Budget& budget) const {
+  Result check(const std::vector<std::int64_t>& waits, Detail detail, Budget& budget, Budget& walks) const {
     Result result;
     result.response.resize(system_.models.size());
     result.exact.resize(system_.models.size());
@@ -79,17 +79,23 @@ class Cores {
     result.evidence = Evidence::proof;
     if (system_.models.empty()) result.reason = "there is no task to be late";
     for (std::size_t c = 0; c < tasks_.size(); ++c)
-      if (!tasks_[c].empty()) add(result, c, waits, detail, budget);
+      if (!tasks_[c].empty()) add(result, c, waits, detail, budget, walks);
     return result;
   }
 
   // Readers wait for the responses of those that they follow elsewhere, which depend on such waits: from none on, up to
-  // where they stay as they are (holistic analysis: Tindell, Clark 1994).
-  Result check_holistically(Budget& budget) const {
+  // where they stay as they are (holistic analysis: Tindell, Clark 1994). Walks of all rounds together take no more
+  // than `max_walked` steps; what holds for every shift holds without any.
+  Result check_holistically(std::uint64_t max_walked, Budget& budget) const {
+    return within(budget, max_walked, [&](Budget& walks) { return find_waits(budget, walks); });
+  }
+
+ private:
+  Result find_waits(Budget& budget, Budget& walks) const {
     constexpr int max_rounds = 100;
     std::vector<std::int64_t> waits(system_.models.size(), 0);
     for (int round = 0; round < max_rounds; ++round) {
-      Result result = check(waits, Detail::tight, budget);
+      Result result = check(waits, Detail::tight, budget, walks);
       if (result.verdict != Verdict::schedulable) return result;
       bool changed = false;
       for (const auto& [producer, reader] : waiting_) {
@@ -106,8 +112,8 @@ class Cores {
     return {};
   }
 
- private:
-  void add(Result& result, std::size_t c, const std::vector<std::int64_t>& waits, Detail detail, Budget& budget) const {
+  void add(Result& result, std::size_t c, const std::vector<std::int64_t>& waits, Detail detail, Budget& budget,
+           Budget& walks) const {
     const std::vector<std::size_t>& tasks = tasks_[c];
     CoreTasks of_core = tasks_of(system_, tasks, waits);
     if (detail == Detail::tight) {
@@ -116,7 +122,7 @@ class Cores {
       for (const TaskModel& m : of_core.models) longest = std::max(longest, m.blocking);
       for (TaskModel& m : of_core.models) m.blocking = longest;
     }
-    CoreResult core = check_core(of_core, system_.policy, system_.offsets_hold, detail, budget);
+    CoreResult core = check_core(of_core, system_.policy, system_.offsets_hold, detail, budget, walks);
     for (std::size_t i = 0; i < tasks.size() && detail != Detail::verdict; ++i) {
       result.response[tasks[i]] = core.responses[i];
       result.exact[tasks[i]] = core.exact;
@@ -181,14 +187,18 @@ Result run_with_waits(const System& system, const std::vector<std::size_t>& core
 
 // With waits a "yes" is safe; a "no" is one without them, as those waited for may take no time.
 Result check_assigned(const System& system, const std::vector<std::size_t>& core, Detail detail, Budget& budget) {
+  constexpr std::uint64_t max_walked = 5'000'000;
   const Cores cores(system, core);
-  Result by_itself = cores.check(std::vector<std::int64_t>(system.models.size(), 0), detail, budget);
+  Result by_itself = cores.check(std::vector<std::int64_t>(system.models.size(), 0), detail, budget, budget);
   if (!cores.waits()) return by_itself;
   if (by_itself.verdict == Verdict::not_schedulable) {
     if (detail != Detail::verdict) cores.forget_responses_with_waits(by_itself);
     return by_itself;
   }
-  Result result = cores.check_holistically(budget);
+  // walks are for shorter responses, or for a verdict that nothing else gives
+  Result result = cores.check_holistically(detail == Detail::verdict ? 0 : max_walked, budget);
+  if (detail == Detail::verdict && result.verdict != Verdict::schedulable)
+    result = cores.check_holistically(max_walked, budget);
   if (result.verdict != Verdict::schedulable) {
     result = run_with_waits(system, core, budget);
     if (result.verdict != Verdict::not_schedulable)
