@@ -33,7 +33,8 @@ bool passes_gfb(std::span<const TaskModel> models, std::int64_t cores) {
   return largest <= 1 && sum * (1 + 1e-15L) <= m - (m - 1) * largest;
 }
 
-std::vector<std::optional<std::int64_t>> global_edf_responses(std::span<const TaskModel> models, std::int64_t cores) {
+std::vector<std::optional<std::int64_t>> global_edf_responses(std::span<const TaskModel> models, std::int64_t cores,
+                                                              Budget& budget) {
   constexpr int max_rounds = 100, plain_steps = 100;
   std::vector<std::optional<std::int64_t>> responses(models.size());
   for (const TaskModel& task : models)
@@ -48,6 +49,7 @@ std::vector<std::optional<std::int64_t>> global_edf_responses(std::span<const Ta
       const std::int64_t max = own.deadline - own.jitter;
       std::int64_t response = own.wcet;
       for (int step = 0; response <= max; ++step) {
+        if (!budget.spend(2 * models.size())) return responses;
         Wide sum = 0;
         for (std::size_t i = 0; i < models.size(); ++i)
           if (i != k)

@@ -19,11 +19,11 @@ TaskModels with_blocking_in_wcet(TaskModels models) {
 
 // Upper bounds with readers that wait for those that they follow: their responses are jitter of the readers (as
 // Tindell, Clark 1994), from none on, up to where they stay as they are. Nothing for one that none was found for.
-std::vector<std::optional<std::int64_t>> bounds_of(const System& system, const TaskModels& models) {
+std::vector<std::optional<std::int64_t>> bounds_of(const System& system, const TaskModels& models, Budget& budget) {
   constexpr int max_rounds = 100;
   TaskModels waiting = models;
   for (int round = 0; round < max_rounds; ++round) {
-    auto responses = global_edf_responses(waiting, system.cores);
+    auto responses = global_edf_responses(waiting, system.cores, budget);
     bool changed = false;
     for (const auto& [producer, reader] : system.follows) {
       if (!responses[producer]) return std::vector<std::optional<std::int64_t>>(models.size());
@@ -95,10 +95,11 @@ System with_edf(System system) {
 }  // namespace
 
 Result check_globally(const System& system, bool whole, Budget& budget) {
+  constexpr std::uint64_t max_steps_to_bound = 50'000'000;
   if (system.cores == 1) return check_partitioned(with_edf(system), whole, budget);
   const TaskModels models = with_blocking_in_wcet(system.models);
   Result result;
-  result.response = bounds_of(system, models);
+  result.response = within(budget, max_steps_to_bound, [&](Budget& own) { return bounds_of(system, models, own); });
   result.core.resize(models.size());
   const bool bounded =
       std::all_of(result.response.begin(), result.response.end(), [](const auto& r) { return r.has_value(); });

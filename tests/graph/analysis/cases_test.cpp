@@ -150,7 +150,8 @@ void check_global(const Json& c) {
   const Graph graph = tests::graph_of(yaml_of(c, "ns"));
   const System system = system_of(graph);
   CHECK(passes_gfb(system.models, system.cores) == c["expect"]["gfb"].get<bool>());
-  const auto responses = global_edf_responses(system.models, system.cores);
+  Budget budget;
+  const auto responses = global_edf_responses(system.models, system.cores, budget);
   for (std::size_t i = 0; i < responses.size(); ++i) {
     REQUIRE(responses[i]);
     CHECK(*responses[i] == c["expect"]["R_edf"][i].get<std::int64_t>());
