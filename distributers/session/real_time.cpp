@@ -76,8 +76,10 @@ CheckFindings find_against(const Graph& graph) {
   // the real clock keeps the offsets
   std::optional<Graph> given;
   if (graph.platform.phasing != Phasing::given) given.emplace(graph).platform.phasing = Phasing::given;
+  analysis::Budget budget{analysis::max_steps_of_chains};
   for (const Chain& chain : graph.chains) {
-    const auto broken = analysis::broken_limits(chain, analysis::latency_of(given ? *given : graph, chain.path));
+    const auto latency = analysis::latency_of(given ? *given : graph, chain.path, budget);
+    const auto broken = analysis::broken_limits(chain, latency);
     if (!broken.empty()) add("breaks a limit of chain '" + chain.name + "': " + list_of(broken));
   }
   if (result.verdict == analysis::Verdict::unknown) found.unknown = result.reason;

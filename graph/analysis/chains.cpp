@@ -9,8 +9,6 @@
 namespace jarol::analysis {
 namespace {
 
-__extension__ using Wide = __int128;
-
 // A point of logical time: the instant, and the step within it (specs/README.md, "An instant").
 struct Point {
   std::int64_t instant;
@@ -66,12 +64,11 @@ std::int64_t backward(const std::vector<Hop>& hops, std::int64_t k) {
 
 }  // namespace
 
-ChainLatency latency_of(const Graph& graph, const std::vector<End>& path) {
+ChainLatency latency_of(const Graph& graph, const std::vector<End>& path, Budget& budget) {
   constexpr std::int64_t max_activations = 2'000'000;
   std::vector<Hop> hops;
   for (const End& end : path) hops.push_back(hop_of(graph, end));
   ChainLatency result;
-  constexpr Wide max_time = std::numeric_limits<std::int64_t>::max();
   Wide lcm = 1, bound = 0, start = 0;
   for (const Hop& h : hops) {
     bound += h.period + h.let;
@@ -79,17 +76,20 @@ ChainLatency latency_of(const Graph& graph, const std::vector<End>& path) {
     const Wide next = lcm / std::gcd(static_cast<std::int64_t>(lcm), h.period) * h.period;
     lcm = std::min<Wide>(next, static_cast<Wide>(1) << 62);
   }
-  result.bound = static_cast<std::int64_t>(std::min(bound, max_time));
+  result.bound = saturated(bound);
   const Hop &first = hops.front(), &last = hops.back();
   // how far apart the hops are is not known
   const bool open = graph.platform.phasing == Phasing::any;
   // the latest instant that is looked at is before that
-  const bool fits = 2 * (start + lcm) + bound <= max_time;
-  if (open || !fits || lcm / first.period > max_activations || lcm / last.period > max_activations) {
+  const bool fits = 2 * (start + lcm) + bound <= std::numeric_limits<std::int64_t>::max();
+  const auto steps = static_cast<Wide>(hops.size()) * (lcm / first.period + lcm / last.period);
+  const bool few = lcm / first.period <= max_activations && lcm / last.period <= max_activations;
+  if (open || !fits || !few || steps > budget.left) {
     result.exact = false;
     result.max_reaction = result.max_reduced = result.max_age = result.max_reduced_age = result.bound;
     return result;
   }
+  budget.spend(static_cast<std::uint64_t>(steps));
   // forward, for every read of one repetition once all offsets are behind
   const auto behind = static_cast<std::int64_t>(start);
   const std::int64_t from = behind / first.period + 1, count = static_cast<std::int64_t>(lcm) / first.period;

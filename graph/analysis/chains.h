@@ -1,6 +1,7 @@
 // Latency along a path of tasks and communicators, in logical time: what `run` does, exactly.
 #pragma once
 
+#include "graph/analysis/task_model.h"
 #include "graph/model/graph.h"
 
 namespace jarol::analysis {
@@ -17,8 +18,12 @@ struct ChainLatency {
   std::vector<std::int64_t> at;      // ns: the instants of the hops on the slowest way; the first is its read
 };
 
-/// A path of a valid graph, not empty.
-ChainLatency latency_of(const Graph& graph, const std::vector<End>& path);
+/// Of the latencies of one graph, what they take together at most.
+inline constexpr std::uint64_t max_steps_of_chains = 100'000'000;
+
+/// A path of a valid graph, not empty. Each hop of each activation is a step; upper bounds where that is more than is
+/// left.
+ChainLatency latency_of(const Graph& graph, const std::vector<End>& path, Budget& budget);
 
 /// The limits of a chain that its latency exceeds, as "reaction 12ms over 11ms"; of a reaction first.
 std::vector<std::string> broken_limits(const Chain& chain, const ChainLatency& latency);

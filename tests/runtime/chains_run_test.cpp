@@ -41,7 +41,8 @@ Measured measure(const std::vector<int>& periods, std::int64_t hyperperiod, anal
     path.push_back({End::Kind::task, i, 0});
   }
   const Graph graph = tests::graph_of("graph: t\ntasks:\n" + tasks + "connections:\n" + connections);
-  analysed = analysis::latency_of(graph, path);
+  analysis::Budget budget;
+  analysed = analysis::latency_of(graph, path, budget);
   Arrivals arrivals(graph, "t" + std::to_string(periods.size() - 1) + ".out");
   Recorder recorder({&arrivals});
   Executor executor(graph, {}, {.digest = false, .recorder = &recorder});

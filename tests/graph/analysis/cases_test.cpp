@@ -137,7 +137,8 @@ void check_chain(const Json& c) {
   const Graph graph = tests::graph_of("graph: t\ntasks:\n" + tasks + "connections:\n" + connections);
   std::vector<End> path;
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) path.push_back({End::Kind::task, i, 0});
-  const ChainLatency m = latency_of(graph, path);
+  Budget budget;
+  const ChainLatency m = latency_of(graph, path, budget);
   CHECK(m.exact);
   CHECK(m.max_reaction == c["expect"]["mrt"].get<std::int64_t>() * unit);
   CHECK(m.max_age == c["expect"]["mda"].get<std::int64_t>() * unit);

@@ -36,14 +36,15 @@ CheckReport check_graph(const std::string& file, const Graph& graph, bool sensit
   report.file = file;
   report.graph = &graph;
   report.result = analysis::check(graph);
-  for (const Chain& c : graph.chains) report.chains.push_back({c, analysis::latency_of(graph, c.path)});
+  analysis::Budget of_chains{analysis::max_steps_of_chains};
+  for (const Chain& c : graph.chains) report.chains.push_back({c, analysis::latency_of(graph, c.path, of_chains)});
   if (all_chains) {
     AllPaths all = all_paths(graph);
     report.more_paths = all.more;
     report.all_walked = all.whole;
     for (std::vector<End>& path : all.paths) {
       Chain chain = chain_of(graph, std::move(path));
-      const analysis::ChainLatency latency = analysis::latency_of(graph, chain.path);
+      const analysis::ChainLatency latency = analysis::latency_of(graph, chain.path, of_chains);
       report.chains.push_back({std::move(chain), latency});
     }
   }

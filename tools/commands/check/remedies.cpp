@@ -64,7 +64,7 @@ class Search {
     if (!problems.empty() || !analysis::open_deadline(graph).empty()) return false;
     if (analysis::verdict_of(analysis::system_of(graph), budget_) != Verdict::schedulable) return false;
     const bool chains_hold = std::all_of(graph.chains.begin(), graph.chains.end(), [&](const Chain& chain) {
-      return analysis::broken_limits(chain, analysis::latency_of(graph, chain.path)).empty();
+      return analysis::broken_limits(chain, analysis::latency_of(graph, chain.path, budget_)).empty();
     });
     return chains_hold && models(changed);
   }
