@@ -8,6 +8,7 @@
 #include "graph/analysis/extremes.h"
 #include "graph/analysis/fixed_priority.h"
 #include "graph/analysis/readiness.h"
+#include "graph/analysis/witness.h"
 
 namespace jarol::analysis {
 namespace {
@@ -140,14 +141,11 @@ bool is_sure(std::span<const TaskModel> models, const Policy& policy, Budget& bu
          is_late_by_own_blocking(models, policy.interrupts, budget);
 }
 
-// The first late activation if all arrive as given.
-void add_witness(std::span<const TaskModel> models, const Policy& policy, CoreResult& result) {
+// Where a late activation is looked for that shows why.
+std::int64_t end_of_witness(std::span<const TaskModel> models, const std::optional<Demand>& demand) {
   std::int64_t end = 0;
   for (const TaskModel& m : models) end = std::max(end, m.offset + 4 * m.period);
-  end = std::max(end_of_repetition(models).value_or(end), result.demand ? result.demand->length : 0);
-  Simulation run = simulate(models, order_of(policy), policy.interrupts, end, max_simulated);
-  result.late = run.late;
-  if (run.late) result.slices = std::move(run.slices);
+  return std::max(end_of_repetition(models).value_or(end), demand ? demand->length : 0);
 }
 
 // Of a walk through all that can happen, to the first late activation or, with `whole`, beyond it.
@@ -311,7 +309,7 @@ CoreResult check_core(const CoreTasks& tasks, const Policy& policy, bool offsets
         "a task has a higher priority than one that it follows at the same instant; give the producer "
         "the higher one");
   if (detail == Detail::whole && result.verdict == Verdict::not_schedulable && !result.late)
-    add_witness(tasks.models, policy, result);
+    add_witness(tasks, policy, end_of_witness(tasks.models, result.demand), result);
   result.responses.resize(tasks.models.size());
   // of readers that go first nothing is said here but what they add
   result.exact = result.exact && tasks.upward.empty();

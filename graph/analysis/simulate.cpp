@@ -7,6 +7,7 @@ namespace jarol::analysis {
 namespace {
 
 constexpr std::int64_t no_time = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t end_of_time = std::int64_t{1} << 62;
 
 struct Arrival {
   std::int64_t time;
@@ -30,7 +31,7 @@ struct CoreRules {
   Order order = Order::by_priority;
   bool preemptive = true;
   bool beyond_late = false;
-  std::int64_t last = no_time;  // nothing arrives from then on
+  std::int64_t last = no_time;  // the run ends with what arrives before
   std::uint64_t max_activations = 0;
 };
 
@@ -45,12 +46,9 @@ class CoreSimulator {
   bool run_until(std::int64_t end) {
     while (now_ < end) {
       arrive();
-      if (result_.activations > rules_.max_activations) {
-        result_.whole = false;
-        return false;
-      }
+      if (result_.activations > rules_.max_activations) return give_up();
+      if (open_ == 0 && next_arrival() >= rules_.last) return true;
       if (ready_.empty()) {
-        if (next_arrival() == no_time) return true;
         now_ = std::min(end, next_arrival());
         continue;
       }
@@ -81,12 +79,25 @@ class CoreSimulator {
     return sum;
   }
 
+  bool is_open() const { return open_ > 0; }
+
+  // Late is then what has not ended, and whose deadline is longest past.
+  bool give_up() {
+    result_.whole = false;
+    if (result_.late) return false;
+    for (MinFirst<Ready> ready = ready_; !ready.empty(); ready.pop()) {
+      const Ready& r = ready.top();
+      const std::int64_t deadline = r.release + loads_[r.task].deadline;
+      if (deadline < (result_.late ? result_.late->deadline : now_))
+        result_.late = DeadlineMiss{r.task, r.activation, r.release, now_, deadline, false};
+    }
+    return false;
+  }
+
   Simulation& result() { return result_; }
 
  private:
-  std::int64_t next_arrival() const {
-    return arrivals_.empty() || arrivals_.top().time >= rules_.last ? no_time : arrivals_.top().time;
-  }
+  std::int64_t next_arrival() const { return arrivals_.empty() ? no_time : arrivals_.top().time; }
 
   void arrive() {
     while (next_arrival() <= now_ && result_.activations <= rules_.max_activations) {
@@ -98,6 +109,7 @@ class CoreSimulator {
       ready_.push({urgency, a.task, a.activation, a.time, m.wcet});
       arrivals_.push({a.time + m.period, a.task, a.activation + 1});
       ++result_.activations;
+      if (a.time < rules_.last) ++open_;
     }
   }
 
@@ -114,6 +126,7 @@ class CoreSimulator {
 
   bool close(const Ready& ended) {
     const std::int64_t deadline = ended.release + loads_[ended.task].deadline;
+    if (ended.release < rules_.last) --open_;
     std::int64_t& response = result_.responses[ended.task];
     response = std::max(response, now_ - ended.release);
     if (now_ > deadline && !result_.late)
@@ -126,6 +139,7 @@ class CoreSimulator {
   std::int64_t now_ = 0;
   MinFirst<Arrival> arrivals_;
   MinFirst<Ready> ready_;
+  std::uint64_t open_ = 0;  // that arrived before the last instant and have not ended
   Simulation result_;
 };
 
@@ -134,7 +148,7 @@ class CoreSimulator {
 Simulation simulate(std::span<const TaskModel> models, Order order, bool preemptive, std::int64_t until,
                     std::uint64_t max_activations) {
   CoreSimulator simulator(models, {order, preemptive, false, until, max_activations});
-  simulator.run_until(no_time);
+  if (simulator.run_until(end_of_time) && simulator.is_open()) simulator.give_up();
   return std::move(simulator.result());
 }
 

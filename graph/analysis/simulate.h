@@ -17,6 +17,7 @@ struct DeadlineMiss {
   std::int64_t release = 0;
   std::int64_t finish = 0;
   std::int64_t deadline = 0;  // absolute
+  bool ended = true;          // else it had not by `finish`, where the run ended
 };
 
 /// A piece of one activation without interruption.
@@ -40,7 +41,8 @@ struct Simulation {
   std::vector<Slice> slices;            // the last ones before the late activation ended
 };
 
-/// Runs all releases before `until`, or up to the first late activation, or so many. Ties: the task that stands first.
+/// Until all that was released before `until` has ended, what is released meanwhile with it; or up to the first late
+/// activation, or so many. Of these one may be late that has not ended by then. Ties: the task that stands first.
 Simulation simulate(std::span<const TaskModel> models, Order order, bool preemptive, std::int64_t until,
                     std::uint64_t max_activations = 2'000'000);
 

@@ -12,7 +12,7 @@ namespace {
 using namespace jarol::analysis;
 
 // splitmix64
-std::int64_t drawn(std::uint64_t& state, std::int64_t min, std::int64_t max) {
+std::int64_t drawn_up_to(std::uint64_t& state, std::int64_t min, std::int64_t max) {
   std::uint64_t z = (state += 0x9e3779b97f4a7c15ULL);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
@@ -22,11 +22,11 @@ std::int64_t drawn(std::uint64_t& state, std::int64_t min, std::int64_t max) {
 System random_system(std::uint64_t seed) {
   System system;
   system.policy = jarol::policies::global_edf;
-  system.cores = drawn(seed, 2, 3);
-  const auto n = static_cast<std::size_t>(system.cores + drawn(seed, 0, 3));
+  system.cores = drawn_up_to(seed, 2, 3);
+  const auto n = static_cast<std::size_t>(system.cores + drawn_up_to(seed, 0, 3));
   for (std::size_t i = 0; i < n; ++i) {
-    const std::int64_t period = drawn(seed, 2, 6), wcet = drawn(seed, 1, period);
-    system.models.push_back({wcet, period, drawn(seed, wcet, period), drawn(seed, 0, period - 1), 0, 0, 0});
+    const std::int64_t period = drawn_up_to(seed, 2, 6), wcet = drawn_up_to(seed, 1, period);
+    system.models.push_back({wcet, period, drawn_up_to(seed, wcet, period), drawn_up_to(seed, 0, period - 1), 0, 0, 0});
     system.rank.push_back(i);
     system.turn.push_back(i);
   }
@@ -48,7 +48,7 @@ bool trial_holds(const System& system, std::optional<std::uint64_t> shorter) {
     for (std::size_t i = 0; i < system.models.size(); ++i) {
       const TaskModel& m = system.models[i];
       if (now >= m.offset && (now - m.offset) % m.period == 0)
-        jobs.push_back({i, now + m.deadline, shorter ? drawn(*shorter, 1, m.wcet) : m.wcet});
+        jobs.push_back({i, now + m.deadline, shorter ? drawn_up_to(*shorter, 1, m.wcet) : m.wcet});
     }
     std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) {
       return a.deadline != b.deadline ? a.deadline < b.deadline : a.task < b.task;

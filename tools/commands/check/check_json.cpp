@@ -63,8 +63,9 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
       witness.update({{"task", r.graph->tasks[m.task].name},
                       {"activation", m.activation},
                       {"release_ns", m.release},
-                      {"finish_ns", m.finish},
+                      {"finish_ns", m.ended ? Json(m.finish) : Json(nullptr)},
                       {"deadline_ns", m.deadline}});
+      if (!m.ended) witness["unfinished_ns"] = m.finish;
     }
     if (r.result.demand)
       witness["demand"] = {{"length_ns", r.result.demand->length},

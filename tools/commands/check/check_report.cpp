@@ -98,9 +98,10 @@ std::string headline(const CheckReport& r) {
     // under a global policy it is no single core's
     if (r.result.core_at_fault || analysis::policy_of(r.graph->platform).keeps_core)
       text += fmt::format(" core {}:", r.result.core_at_fault.value_or(0));
-    text += fmt::format(" task '{}' activation {} (released {}) finishes {}, deadline {} (late {})",
-                        r.graph->tasks[m.task].name, m.activation, milliseconds(m.release), milliseconds(m.finish),
-                        milliseconds(m.deadline), milliseconds(m.finish - m.deadline));
+    text += fmt::format(" task '{}' activation {} (released {}) {} {}, deadline {} (late {}{})",
+                        r.graph->tasks[m.task].name, m.activation, milliseconds(m.release),
+                        m.ended ? "finishes" : "has not finished by", milliseconds(m.finish), milliseconds(m.deadline),
+                        m.ended ? "" : "more than ", milliseconds(m.finish - m.deadline));
   }
   if (!r.result.late) text += worst_response(r);
   return text + "\n  " + word_of(r.result.evidence) + ": " + r.result.reason + " on " +
@@ -127,9 +128,10 @@ std::string shares_text(const CheckReport& r) {
   for (std::size_t i = 0; i < ran.size(); ++i)
     if (ran[i] > 0)
       parts += fmt::format("{}{} {}", parts.empty() ? "" : " + ", r.graph->tasks[i].name, duration(ran[i]));
+  const std::string time =
+      fmt::format("  from release to {} {}", late.ended ? "end" : "there", duration(late.finish - late.release));
   // where the test that finds it late draws no time line
-  if (parts.empty()) return fmt::format("  from release to end {}\n", duration(late.finish - late.release));
-  return fmt::format("  from release to end {}: {}\n", duration(late.finish - late.release), parts);
+  return time + (parts.empty() ? "\n" : ": " + parts + "\n");
 }
 
 // Who needs how much in the interval that is too short.

@@ -126,9 +126,10 @@ constexpr const char *on_time = "#4477aa", *too_late = "#cc3311", *release = "#2
 std::string late_svg(const Graph& graph, const analysis::Result& result) {
   const analysis::DeadlineMiss& late = *result.late;
   const Window window = window_of(result);
-  Chart chart(graph, window,
-              fmt::format("{}: activation {} of {} is {} late", graph.name, late.activation,
-                          graph.tasks[late.task].name, duration_text(Duration(late.finish - late.deadline))));
+  Chart chart(
+      graph, window,
+      fmt::format("{}: activation {} of {} is {}{} late", graph.name, late.activation, graph.tasks[late.task].name,
+                  late.ended ? "" : "more than ", duration_text(Duration(late.finish - late.deadline))));
   for (std::size_t i = 0; i < window.tasks.size(); ++i) {
     for (const analysis::Slice& s : result.slices) {
       if (s.task != window.tasks[i] || s.end <= window.begin) continue;

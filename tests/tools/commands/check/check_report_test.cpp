@@ -175,4 +175,27 @@ tasks:
     CHECK(least(" --set tasks.b.jitter=10us") == 28'000);
     CHECK(run_jarol("check " + file + " --set tasks.b.jitter=10us --set tasks.b.deadline=28us").exit_code == 0);
   }
+
+  TEST_CASE("of a late task that never ends the report says by when it has not, and JSON has no end of it") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+platform: {policy: fixed_priority}
+tasks:
+  a: {type: Counter, period: 10ms, wcet: 10ms}
+  b: {type: Counter, period: 10ms, wcet: 1ms}
+)");
+    const std::string text = run_jarol("check " + file).output;
+    CHECK(text.starts_with(file +
+                           ": NOT SCHEDULABLE utilisation 110.00% of one core: there is more to do than time; core 0: "
+                           "task 'b' activation 0 (released 0.000 ms) has not finished by 5000000.000 ms, deadline "
+                           "10.000 ms (late more than 4999990.000 ms)\n"));
+    CHECK(text.find("\n  from release to there 5000s: ") != std::string::npos);
+    const auto witness = json_of("check --json " + file)["witness"];
+    CHECK(witness["finish_ns"] == nullptr);
+    CHECK(witness["unfinished_ns"] == 5'000'000'000'000);
+    CHECK(witness["deadline_ns"] == 10'000'000);
+    command::run_jarol("check " + file + " --svg " + file + ".svg");
+    CHECK(command::content(file + ".svg").find(">t: activation 0 of b is more than 4999.99s late<") !=
+          std::string::npos);
+  }
 }
