@@ -56,6 +56,18 @@ TEST_SUITE("graph/analysis/witness") {
     CHECK(late == Late{"b", 0, 0, std::int64_t{1} << 62, 315'360'000'000 * ms, false});
   }
 
+  TEST_CASE("a reader of a higher priority does not go before what it follows, and is what is late") {
+    const std::string up = R"(tasks:
+  p: {type: Counter, period: 10ms, wcet: 6ms}
+  r: {type: Relay, period: 10ms, let: 10ms, wcet: 5ms, priority: 1}
+connections: [p.out -> r.in]
+)";
+    for (const std::string policy : {"fixed_priority", "fixed_priority_nonpreemptive"}) {
+      CAPTURE(policy);
+      CHECK(late_of(policy, up) == Late{"r", 0, 0, 11 * ms, 10 * ms});
+    }
+  }
+
   TEST_CASE("who is late of random sets that are too much for a core is late as long when they run") {
     for (const std::string policy : {"fixed_priority", "edf", "fixed_priority_nonpreemptive", "edf_nonpreemptive"})
       for (std::uint64_t seed = 0; seed < 50; ++seed) {
