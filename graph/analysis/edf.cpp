@@ -112,7 +112,11 @@ EdfResult check_edf_of(std::span<const TaskModel> models, std::optional<std::str
 EdfResult check_edf(std::span<const TaskModel> models, bool preemptive, Budget& budget) {
   return within(budget, max_edf_steps, [&](Budget& own) {
     const auto order = compare_utilisation(models, 1);
-    return preemptive ? check_edf_of(merged(models), order, true, own) : check_edf_of(models, order, false, own);
+    EdfResult result =
+        preemptive ? check_edf_of(merged(models), order, true, own) : check_edf_of(models, order, false, own);
+    if (result.over)
+      for (const TaskModel& m : models) result.over->releases.push_back(releases_due(m, result.over->length));
+    return result;
   });
 }
 

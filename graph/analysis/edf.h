@@ -1,6 +1,8 @@
 // Earliest deadline first on one core.
 #pragma once
 
+#include <vector>
+
 #include "graph/analysis/task_model.h"
 
 namespace jarol::analysis {
@@ -8,8 +10,9 @@ namespace jarol::analysis {
 /// In [0, length] work of `demand` is due.
 struct Demand {
   std::int64_t length = 0;
-  std::int64_t demand = 0;    // of tasks; the longest time that there is, where it is longer
-  std::int64_t blocking = 0;  // by what can't be preempted
+  std::int64_t demand = 0;               // of tasks; the longest time that there is, where it is longer
+  std::int64_t blocking = 0;             // by what can't be preempted
+  std::vector<std::int64_t> releases{};  // per task, how many are due
 };
 
 struct EdfResult {

@@ -136,6 +136,10 @@ class Cores {
     result.reason = core.reason;
     result.core_at_fault = c;
     result.demand = core.demand;
+    if (result.demand) {
+      result.demand->releases.assign(system_.models.size(), 0);
+      for (std::size_t i = 0; i < tasks.size(); ++i) result.demand->releases[tasks[i]] = core.demand->releases[i];
+    }
     if (core.late) {
       core.late->task = tasks[core.late->task];
       result.late = core.late;

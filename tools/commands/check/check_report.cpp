@@ -142,16 +142,13 @@ std::string demand_text(const CheckReport& r) {
   std::string text = fmt::format("  in an interval of {} work of {}{} is due", duration(d.length),
                                  longer ? "more than " : "", duration(d.demand));
   if (d.blocking > 0) text += fmt::format(", and {} can hold it up", duration(d.blocking));
+  // with what the platform adds to each activation
+  const analysis::System system = analysis::system_of(*r.graph);
   std::string parts;
-  for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
-    const Task& t = r.graph->tasks[i];
-    if (!t.wcet || (r.result.core_at_fault && r.result.core[i] && *r.result.core[i] != *r.result.core_at_fault))
-      continue;
-    const std::int64_t reach = d.length + t.jitter.count() - t.deadline.count();
-    if (reach < 0) continue;
-    parts += fmt::format("{}{} {}x{}", parts.empty() ? "" : " + ", t.name, reach / t.period.count() + 1,
-                         duration_text(*t.wcet));
-  }
+  for (std::size_t i = 0; i < d.releases.size(); ++i)
+    if (d.releases[i] > 0)
+      parts += fmt::format("{}{} {}x{}", parts.empty() ? "" : " + ", r.graph->tasks[i].name, d.releases[i],
+                           duration(system.models[i].wcet));
   return text + ": " + parts + "\n";
 }
 

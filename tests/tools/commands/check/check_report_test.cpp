@@ -198,4 +198,17 @@ tasks:
     CHECK(command::content(file + ".svg").find(">t: activation 0 of b is more than 4999.99s late<") !=
           std::string::npos);
   }
+
+  TEST_CASE("the parts of the work that is due have what the platform adds, and sum up to all of it") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+platform: {policy: edf, dispatch: 1ms}
+tasks:
+  a: {type: Counter, period: 10ms, let: 10ms, wcet: 5ms}
+  b: {type: Counter, period: 15ms, let: 10ms, wcet: 4ms}
+)");
+    CHECK(
+        run_jarol("check " + file).output.find("\n  in an interval of 10ms work of 11ms is due: a 1x6ms + b 1x5ms\n") !=
+        std::string::npos);
+  }
 }
