@@ -117,21 +117,46 @@ std::string measured_headline(const CheckReport& r) {
                      printable(r.file), task->name, duration_text(max), duration_text(*task->wcet));
 }
 
-// Who ran how long while the late activation waited and ran.
+// Whom the late activation may wait for while nothing runs on its core.
+std::string awaited_by(const CheckReport& r, const analysis::System& system) {
+  const std::size_t late = r.result.late->task;
+  std::string names;
+  for (const auto& [producer, reader] : system.follows)
+    if (reader == late && r.result.core[producer] != r.result.core[late])
+      names += (names.empty() ? " for '" : ", '") + r.graph->tasks[producer].name + "'";
+  return names;
+}
+
+// Who ran how long while the late activation waited and ran, as far as that is known.
 std::string shares_text(const CheckReport& r) {
   if (!r.result.late) return "";
   const analysis::DeadlineMiss& late = *r.result.late;
+  const analysis::System system = analysis::system_of(*r.graph);
+  const std::int64_t from = known_from(r.result);
   std::vector<std::int64_t> ran(r.graph->tasks.size(), 0);
-  for (const analysis::Slice& s : r.result.slices)
-    if (s.end > late.release) ran[s.task] += s.end - std::max(s.begin, late.release);
+  std::int64_t blocked = 0, idle = late.finish - from;
+  for (const analysis::Slice& s : r.result.slices) {
+    if (s.end <= from) continue;
+    const std::int64_t begin = std::max(s.begin, from);
+    // in a table each piece begins with what holds it up
+    const std::int64_t blocking = system.policy.urgency == Urgency::turn ? system.models[s.task].blocking : 0;
+    const std::int64_t held = std::clamp<std::int64_t>(s.begin + blocking - begin, 0, s.end - begin);
+    ran[s.task] += s.end - begin - held;
+    blocked += held;
+    idle -= s.end - begin;
+  }
   std::string parts;
-  for (std::size_t i = 0; i < ran.size(); ++i)
-    if (ran[i] > 0)
-      parts += fmt::format("{}{} {}", parts.empty() ? "" : " + ", r.graph->tasks[i].name, duration(ran[i]));
-  const std::string time =
+  const auto add = [&](const std::string& what, std::int64_t time) {
+    if (time > 0) parts += (parts.empty() ? "" : " + ") + what + " " + duration(time);
+  };
+  for (std::size_t i = 0; i < ran.size(); ++i) add(r.graph->tasks[i].name, ran[i]);
+  add("blocking", blocked);
+  if (system.policy.keeps_core && !parts.empty()) add("waiting" + awaited_by(r, system), idle);
+  std::string text =
       fmt::format("  from release to {} {}", late.ended ? "end" : "there", duration(late.finish - late.release));
+  if (from > late.release) text += fmt::format(", of which the last {}", duration(late.finish - from));
   // where the test that finds it late draws no time line
-  return time + (parts.empty() ? "\n" : ": " + parts + "\n");
+  return text + (parts.empty() ? "\n" : ": " + parts + "\n");
 }
 
 // Who needs how much in the interval that is too short.

@@ -9,6 +9,12 @@
 
 namespace jarol::tools {
 
+std::int64_t known_from(const analysis::Result& result) {
+  const std::vector<analysis::Slice>& slices = result.slices;
+  const bool cut = slices.size() >= analysis::max_slices && slices.front().begin > result.late->release;
+  return cut ? slices.front().begin : result.late->release;
+}
+
 namespace {
 
 // The window that explains the late activation: from what held it up to its end.
@@ -20,7 +26,7 @@ struct Window {
 
 Window window_of(const analysis::Result& result) {
   const analysis::DeadlineMiss& late = *result.late;
-  Window window{late.release, late.finish, {}};
+  Window window{known_from(result), late.finish, {}};
   for (const analysis::Slice& s : result.slices)
     if (s.end > late.release && s.begin < late.finish) window.begin = std::min(window.begin, s.begin);
   for (const analysis::Slice& s : result.slices)
@@ -53,8 +59,8 @@ std::string gantt_text(const Graph& graph, const analysis::Result& result, std::
     if (t == late.task) {
       for (std::size_t c = column(late.deadline); c < width; ++c)
         if (line[c] == '#') line[c] = '!';
-      line[column(late.deadline)] = '|';
-      if (line[column(late.release)] == '.') line[column(late.release)] = '^';
+      if (late.deadline >= begin) line[column(late.deadline)] = '|';
+      if (late.release >= begin && line[column(late.release)] == '.') line[column(late.release)] = '^';
     }
     text += fmt::format("    {:<{}} {}\n", graph.tasks[t].name, name_width, line);
   }
@@ -138,8 +144,10 @@ std::string late_svg(const Graph& graph, const analysis::Result& result) {
       chart.box(i, cut, s.end, too_late);
     }
   }
-  chart.mark(late.release, "released " + duration_text(Duration(late.release)), release);
-  chart.mark(late.deadline, "deadline " + duration_text(Duration(late.deadline)), too_late);
+  if (late.release >= window.begin)
+    chart.mark(late.release, "released " + duration_text(Duration(late.release)), release);
+  if (late.deadline >= window.begin)
+    chart.mark(late.deadline, "deadline " + duration_text(Duration(late.deadline)), too_late);
   return chart.text();
 }
 

@@ -189,7 +189,7 @@ tasks:
                            ": NOT SCHEDULABLE utilisation 110.00% of one core: there is more to do than time; core 0: "
                            "task 'b' activation 0 (released 0.000 ms) has not finished by 5000000.000 ms, deadline "
                            "10.000 ms (late more than 4999990.000 ms)\n"));
-    CHECK(text.find("\n  from release to there 5000s: ") != std::string::npos);
+    CHECK(text.find("\n  from release to there 5000s, of which the last 4s: a 4s\n") != std::string::npos);
     const auto witness = json_of("check --json " + file)["witness"];
     CHECK(witness["finish_ns"] == nullptr);
     CHECK(witness["unfinished_ns"] == 5'000'000'000'000);
@@ -210,5 +210,36 @@ tasks:
     CHECK(
         run_jarol("check " + file).output.find("\n  in an interval of 10ms work of 11ms is due: a 1x6ms + b 1x5ms\n") !=
         std::string::npos);
+  }
+
+  TEST_CASE("where only the last pieces of a long wait are kept, the report and its chart are of these") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+platform: {policy: fixed_priority}
+tasks:
+  hp: {type: Counter, period: 1ms, let: 1ms, wcet: 900us}
+  lp: {type: Counter, period: 2s, let: 1s, wcet: 150ms}
+)");
+    const std::string text = run_jarol("check " + file).output;
+    CHECK(text.find("\n  from release to end 1.5s, of which the last 200ms: hp 180ms + lp 20ms\n    hp ####") !=
+          std::string::npos);
+    CHECK(text.find("\n       1.3s                                                                1.5s\n") !=
+          std::string::npos);
+    run_jarol("check " + file + " --svg " + file + ".svg");
+    CHECK(command::content(file + ".svg").find(">released ") == std::string::npos);
+  }
+
+  TEST_CASE("what a late task of a table waits for on another core is named, and blocking is no running") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+platform: {cores: 2}
+tasks:
+  p: {type: Counter, period: 10ms, wcet: 8ms, core: 0}
+  r: {type: Relay, period: 10ms, let: 10ms, wcet: 3ms, blocking: 1ms, core: 1}
+connections: [p.out -> r.in]
+)");
+    CHECK(run_jarol("check " + file)
+              .output.find("\n  from release to end 12ms: r 3ms + blocking 1ms + waiting for 'p' 8ms\n") !=
+          std::string::npos);
   }
 }
