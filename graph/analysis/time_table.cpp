@@ -215,9 +215,11 @@ CoreResult check_table(const System& system, const std::vector<std::size_t>& cor
     }
   }
   CoreResult result = walk(system, core, lcm, whole, budget, max);
-  if (result.reason.empty())
-    result.reason =
-        "the periods repeat only after more than " + std::to_string(max) + " activations, and none of these is late";
+  if (result.reason.empty()) {
+    const bool long_periods = !lcm || activations_of(system, *lcm) > static_cast<double>(max);
+    result.reason = (long_periods ? "the periods repeat" : "all that the offsets lead to is seen to repeat") +
+                    (" only after more than " + std::to_string(max)) + " activations, and none of these is late";
+  }
   return result;
 }
 

@@ -138,6 +138,20 @@ tasks:
     CHECK(r.reason == "the periods repeat only after more than 1000 activations, and none of these is late");
   }
 
+  TEST_CASE("where a table repeats soon, but only after large offsets, that is the reason why it stays open") {
+    const CoreResult r = table_of(R"(graph: t
+tasks:
+  a: {type: Counter, period: 1us, let: 1us, wcet: 100ns}
+  b: {type: Counter, period: 400us, offset: 900ns, let: 400us, wcet: 550ns}
+  c: {type: Counter, period: 400us, offset: 200900ns, let: 400us, wcet: 550ns}
+)",
+                                  500);
+    CHECK(r.verdict == Verdict::unknown);
+    CHECK(r.reason ==
+          "all that the offsets lead to is seen to repeat only after more than 500 activations, and none of these is "
+          "late");
+  }
+
   TEST_CASE("what lasts decades beside what comes each second is late, and no time overflows on the way") {
     const Result r = check(graph_of(R"(graph: t
 tasks:
