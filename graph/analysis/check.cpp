@@ -17,7 +17,8 @@ const char* word_of(Verdict verdict) {
 }
 
 Result check(const System& system) {
-  Budget budget;
+  constexpr std::uint64_t max_steps = 2'000'000'000;  // of all cores together
+  Budget budget{max_steps};
   Result result = system.policy.check(system, true, budget);
   // the policy of a plugin may leave them out
   result.response.resize(system.models.size());
