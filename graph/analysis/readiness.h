@@ -24,6 +24,7 @@ class ReadinessAt {
  private:
   const CoreTasks& tasks_;
   std::vector<std::vector<std::size_t>> producers_;
+  std::vector<std::optional<Readiness>> always_;           // per task: the same at each of its instants
   std::vector<std::pair<std::int64_t, Readiness>> known_;  // per task: the instant it was last asked for, and what
 };
 
