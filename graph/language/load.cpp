@@ -148,13 +148,30 @@ void lower(Yaml& graph, const Grammar& grammar, Problems& problems) {
   if (problems.size() > before) problems.throw_if_any();
 }
 
-// What varies is an override like any other.
+// The smallest part of the graph that an override of that path changes: an entry of a section, a section, or all.
+Yaml& part_of(Yaml& graph, std::string_view path) {
+  Yaml* part = &graph;
+  for (int depth = 0; depth < 2; ++depth) {
+    const std::size_t dot = path.find('.');
+    const auto below = std::find_if(part->children.begin(), part->children.end(),
+                                    [&](const Yaml& child) { return child.key == path.substr(0, dot); });
+    if (dot == std::string_view::npos || below == part->children.end()) break;
+    part = &*below;
+    path.remove_prefix(dot + 1);
+  }
+  return *part;
+}
+
+// What varies is an override like any other, each of the graph as it is.
 void require_varied_paths(const Yaml& graph, const CampaignSpec& campaign, Problems& problems) {
   if (!campaign.vary) return;
+  Yaml changed = graph;
   for (const Yaml& child : campaign.vary->value.children) {
     if (child.key == "seed") continue;
-    Yaml changed = graph;
+    Yaml& part = part_of(changed, child.key);
+    const Yaml before = part;
     apply_override(changed, child.key, child.key_where, child, problems);
+    part = before;
   }
 }
 

@@ -117,4 +117,14 @@ TEST_SUITE("graph/spec/override") {
           "  graph: t\n"
           "  ^");
   }
+
+  TEST_CASE("each path that a campaign varies is tried on the graph as it is, whatever the others change") {
+    const auto report_of = [](const std::string& vary) {
+      return report_on("graph: t\ntasks: {a: {type: Counter, period: 1s, wcet: 1ms}}\ncampaign: {vary: {" + vary +
+                       "}}\n");
+    };
+    CHECK(report_of("tasks.a: [1], tasks.a.wcet: [1ms, 2ms], tasks: [1], tasks.a.jitter: [1ms]") == "");
+    CHECK(report_of("tasks.a.wcet: [1ms], tasks.b.wcet: [1ms]").find("path 'tasks.b.wcet': 'tasks' has no 'b'") !=
+          std::string::npos);
+  }
 }
