@@ -9,6 +9,7 @@
 
 #include "distributers/interfaces/vehicle_file.h"
 #include "graph/math/geometry.h"
+#include "tasks/values/alarm.h"
 #include "tasks/values/lauv.h"
 #include "tools/library/built_in.h"
 #include "tools/library/session.h"
@@ -33,6 +34,21 @@ Dive dive(std::vector<std::string> set) {
   }
   done.depth = session.true_value("depth of dune");
   return done;
+}
+
+// The alarm of a dive at that speed that turns, up and down, by 90 to 180 degrees at a time and then in circles.
+tasks::Alarm alarm_of_turns(const std::string& profile, double speed) {
+  auto session = jarol::open("specs/exolauv.yaml", {.profile = profile, .fed = {"neptus"}});
+  const auto sail = [&](Duration time, double depth, double heading, tasks::Turn turn, double rate) {
+    session.feed("neptus.setpoint", tasks::Setpoint{depth, heading * degree, speed, turn, rate * degree});
+    session.run_for(time);
+  };
+  sail(15s, 3, 90, tasks::Turn::heading, 0);
+  sail(10s, 6, 180, tasks::Turn::heading, 0);
+  sail(10s, 2, 0, tasks::Turn::heading, 0);
+  sail(15s, 8, 0, tasks::Turn::rate, 20);
+  sail(15s, 2, 0, tasks::Turn::rate, -20);
+  return session.value<tasks::Condition>("supervisor.condition").alarm;
 }
 
 // DUNE's laws of roll and pitch (P 2.1, D 0.4 s; 1.5, 1.1 s; at 20 Hz, a period behind, as over a link) hold it upright
@@ -74,6 +90,15 @@ TEST_SUITE("tools/dune_vehicle") {
     const Dive stuck = dive({"distributers.dune.link.parameters.hull={length: 2, diameter: 0.11}"});
     CHECK(stuck.depth < 0.1);
     CHECK(stuck.at_limit > 80);
+  }
+
+  TEST_CASE("its speed log and its propeller fit each other at any speed, in turns and dives, too") {
+    for (const char* profile : {"submarine_dune", "submarine_vsim"})
+      for (const double speed : {0.5, 1.2, 1.79}) {
+        CAPTURE(profile);
+        CAPTURE(speed);
+        CHECK(alarm_of_turns(profile, speed) == tasks::Alarm::none);
+      }
   }
 
   TEST_CASE("DUNE's law of roll leaves it upright; with fins that roll it as they stand it never comes to rest") {
