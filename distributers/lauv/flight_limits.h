@@ -1,4 +1,4 @@
-// How deep, fast and wide the plans of the submarine's operator may be.
+// How deep, fast and wide the submarine's operator may send it.
 #pragma once
 
 #include <string_view>
@@ -9,7 +9,7 @@
 namespace jarol::distributers {
 
 /// Defaults: the limits of the vehicle's supervisor, as specs/exolauv.yaml has it, and what the propeller reaches. A
-/// plan beyond them is refused before it begins.
+/// plan beyond them is refused before it begins, and a DesiredZ brought within them.
 struct FlightLimits {
   double max_depth = 12;
   double min_altitude = 2;

@@ -1,5 +1,7 @@
 #include "distributers/lauv/operator.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -35,7 +37,12 @@ void LauvOperator::desired_z(const imc::DesiredZ& z) {
   if (z.z_units != imc::ZUnits::DEPTH || !is_finite(z.value)) return refuse("DesiredZ is taken as a depth in m only");
   // the hand that steers keeps the propeller and the rudders
   if (mode_ != Mode::teleoperation && !use_autopilot()) return;
-  in.setpoint.renew().depth = static_cast<double>(z.value);
+  // as DUNE, which goes no deeper than it may either
+  const double wanted = static_cast<double>(z.value), max = parameters_.limits.max_depth - parameters_.limits.margin;
+  double& depth = in.setpoint.renew().depth;
+  if (wanted > max && depth != max)
+    refuse(fmt::format("DesiredZ is {:.6g} m; depths are at most {:.6g} m: it goes there", wanted, max));
+  depth = std::min(wanted, max);
 }
 
 void LauvOperator::desired_heading(const imc::DesiredHeading& heading) {

@@ -17,13 +17,13 @@ namespace jarol::tasks {
 /// fitted is not waited for; attitude, speed log, and a depth gauge without a pressure beside it, without which nothing
 /// can be steered, are lost then. One that lies is found by another that knows better: depth gauge and pressure,
 /// compass and IMU, attitude and rates, attitude and specific force, speed log and propeller, altitude and depth over a
-/// floor without steps: each from when both have reported something. Once alarmed it comes up: nose up at some speed
-/// until GPS finds the surface, or, where attitude or speed are in doubt, the propeller
-/// does not turn as it is sent, or the nose does not come up and it sinks,
-/// with propeller off, by buoyancy. It stays alarmed, whatever becomes of the cause, until the operator demands a stop
-/// when there is none any more: then it is a vehicle at rest, to be commanded anew. Water in the hull takes the place
-/// of any other cause. A vehicle of which nothing was heard since the start is not lost but waited for, with propeller
-/// off.
+/// floor without steps: each from when both have reported something. Limits of depth and altitude hold for
+/// where it would level off. Once alarmed it comes up: nose up at some speed until GPS finds the surface, or, where
+/// attitude or speed are in doubt, the propeller does not turn as it is sent, or the nose does not come up and it
+/// sinks, with propeller off, by buoyancy. It stays alarmed, whatever becomes of the cause, until the operator demands
+/// a stop when there is none any more: then it is a vehicle at rest, to be commanded anew. Water in the hull takes the
+/// place of any other cause. A vehicle of which nothing was heard since the start is not lost but waited for, with
+/// propeller off.
 struct LauvSupervisor {
   static constexpr std::string_view summary = "passes the operator's setpoint on, or brings the submarine up";
   struct Param {
@@ -33,6 +33,7 @@ struct LauvSupervisor {
     double operator_timeout = 5;
     double max_depth = 12;
     double min_altitude = 2;
+    double levelling_length = 2.2;
     double max_pitch = 50 * std::numbers::pi / 180;
     double min_voltage = 20;
     double depth_error = 0.3;
@@ -60,6 +61,7 @@ struct LauvSupervisor {
           field<&P::gps_timeout>("s", "the same for GPS at the surface"),
           field<&P::operator_timeout>("s", "greatest silence of the operator"), field<&P::max_depth>("m", "limit"),
           field<&P::min_altitude>("m", "limit, over the sea floor"),
+          field<&P::levelling_length>("m", "of the way that it takes to level off, whatever its speed").in(0, 100),
           field<&P::max_pitch>("rad", "limit, to either side").in(0, std::numbers::pi / 2),
           field<&P::min_voltage>("V", "limit"),
           field<&P::depth_error>("m", "greatest difference of gauge and pressure"),

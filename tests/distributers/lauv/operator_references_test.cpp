@@ -30,6 +30,27 @@ TEST_SUITE("distributers/lauv_operator_references") {
     CHECK(state.control_loops == 0x4c8);  // depth, yaw, speed, torque
   }
 
+  TEST_CASE("a depth beyond the limit less its margin is taken as that, and who wants it is told so, once") {
+    LauvOperatorParameters parameters;
+    parameters.limits.max_depth = 20;
+    parameters.limits.margin = 1;
+    Conversation c(parameters);
+    c.say(imc::DesiredZ{19, imc::ZUnits::DEPTH});
+    c.pass(50ms);
+    CHECK(c.setpoint().depth == 19);
+    CHECK(c.to.all<imc::LogBookEntry>().empty());
+    c.say(imc::DesiredZ{5, imc::ZUnits::DEPTH});
+    for (int i = 0; i < 3; ++i) c.say(imc::DesiredZ{50, imc::ZUnits::DEPTH});
+    c.pass(50ms);
+    CHECK(c.setpoint().depth == 19);
+    CHECK(c.to.all<imc::LogBookEntry>().size() == 1);
+    CHECK(c.to.last<imc::LogBookEntry>().text == "DesiredZ is 50 m; depths are at most 19 m: it goes there");
+    c.act("Thrust=0");  // to a hand that steers, too
+    c.say(imc::DesiredZ{3, imc::ZUnits::DEPTH});
+    c.say(imc::DesiredZ{30, imc::ZUnits::DEPTH});
+    CHECK(c.setpoint().depth == 19);
+  }
+
   TEST_CASE("a heading rate and a speed in % become rate and thrust") {
     Conversation c;
     c.say(imc::DesiredHeadingRate{0.1});

@@ -1,0 +1,110 @@
+// What an operator commands beyond the submarine's limits, and at them, in the simulated vehicles.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "graph/math/geometry.h"
+#include "tasks/values/alarm.h"
+#include "tasks/values/guidance.h"
+#include "tasks/values/lauv.h"
+#include "tools/library/session.h"
+
+namespace {
+using namespace jarol;
+using namespace std::chrono_literals;
+
+const bool in_full = std::getenv("JAROL_FULL") != nullptr;
+
+// What was reached.
+struct Reached {
+  double depth = 0, altitude = 1e9, pitch = 0;
+  tasks::Alarm alarm = tasks::Alarm::none;
+};
+
+void note(const Session& session, Reached& reached) {
+  reached.depth = std::max(reached.depth, session.true_value("depth of dune"));
+  reached.altitude = std::min(reached.altitude, session.true_value("altitude of dune"));
+  reached.pitch = std::max(reached.pitch, std::abs(session.true_value("pitch of dune")));
+  if (reached.alarm == tasks::Alarm::none) reached.alarm = session.value<tasks::Condition>("supervisor.condition").alarm;
+}
+
+// A channel of the operator's is given that value, for that time.
+template <class T>
+Reached sail(const std::string& profile, std::vector<std::string> set, const char* channel, const T& value,
+             Duration time) {
+  set.emplace_back("distributers.dune.link.parameters.dynamics=rigid");
+  set.emplace_back("expect=nothing");
+  auto session = jarol::open("specs/exolauv.yaml",
+                             {.profile = profile, .set = std::move(set), .seed = 3, .fed = {"neptus"}});
+  session.run_for(2s);
+  session.feed(channel, value);
+  Reached reached;
+  while (session.now() < time) {
+    session.run_for(100ms);
+    note(session, reached);
+  }
+  return reached;
+}
+
+std::string floor_at(double depth) {
+  return "distributers.dune.link.parameters.sea.floor=" + std::to_string(depth) + " m";
+}
+
+double top_speed(const std::string& profile) { return profile == "submarine_dune" ? 1.79 : 2; }
+}  // namespace
+
+TEST_SUITE("tools/lauv_limits") {
+  TEST_CASE("sent to any depth, at any speed, it keeps off the floor and ends at its limit of depth") {
+    for (const std::string profile : {"", "at_sea", "submarine_dune"}) {
+      for (const double speed : {0.7, 1.0, 1.4, top_speed(profile)}) {
+        CAPTURE(profile);
+        CAPTURE(speed);
+        const tasks::Setpoint down{.depth = 50, .heading = 40 * degree, .speed = speed};
+        const auto near_floor =
+            sail(profile, {floor_at(4), "tasks.supervisor.parameters.min_altitude=0.5"}, "neptus.setpoint", down, 40s);
+        CHECK(near_floor.altitude > 0.35);  // of the lower end of its hull
+        CHECK(near_floor.alarm == tasks::Alarm::altitude_limit);
+        const auto deep = sail(profile, {}, "neptus.setpoint", down, speed < 1 ? 100s : 60s);
+        CHECK(deep.depth > 11.7);
+        CHECK(deep.depth < 12.1);
+        CHECK(deep.alarm == tasks::Alarm::depth_limit);
+      }
+    }
+  }
+
+  TEST_CASE("plans at the limits less their margin have no alarm, level, up and down or in circles, in waves too") {
+    using tasks::Course;
+    using tasks::Vertical;
+    std::vector<tasks::Leg> legs(4);
+    legs[0] = {.course = Course::line, .north = 600, .vertical = Vertical::altitude, .level = 2.5};
+    legs[1] = {.course = Course::circle, .radius = 10, .level = 11.5};
+    legs[2] = {.course = Course::line, .north = 600, .level = 10, .amplitude = 1.5, .slope = 40 * degree};
+    legs[3] = legs[2];
+    legs[3].vertical = Vertical::altitude;
+    legs[3].level = 4;
+    for (const std::string profile : {"", "at_sea", "submarine_dune"}) {
+      for (const double speed : {0.5, 1.0, top_speed(profile)}) {
+        if (speed < 1 && !in_full) continue;
+        for (tasks::Leg leg : legs) {
+          leg.number = 1;
+          leg.surge = speed;
+          CAPTURE(profile);
+          CAPTURE(speed);
+          CAPTURE(leg.level);
+          for (const double floor : {4.0, 9.0}) {
+            const bool by_depth = leg.vertical == Vertical::depth;
+            if (by_depth && floor < 9) continue;
+            const auto reached =
+                sail(profile, by_depth ? std::vector<std::string>{} : std::vector{floor_at(floor)}, "neptus.leg", leg, 90s);
+            CHECK(reached.alarm == tasks::Alarm::none);
+            CHECK(reached.depth > (by_depth ? speed < 1 ? 1.0 : 11.0 : 1.0));
+          }
+        }
+      }
+    }
+  }
+}
