@@ -286,4 +286,9 @@ bool needs_place(const Maneuver& maneuver) {
          std::any_of(maneuver.legs.begin(), maneuver.legs.end(), goes_by_it);
 }
 
+bool needs_altitude(const Maneuver& maneuver) {
+  return std::any_of(maneuver.legs.begin(), maneuver.legs.end(),
+                     [](const PlannedLeg& each) { return each.leg.vertical == tasks::Vertical::altitude; });
+}
+
 }  // namespace jarol::distributers

@@ -46,5 +46,7 @@ Maneuver make_maneuver(const messages::InlineMessage& message, const Origin& ori
 
 /// Does it go by where the vehicle is? One that comes up for a fix does not.
 bool needs_place(const Maneuver& maneuver);
+/// Does it keep an altitude?
+bool needs_altitude(const Maneuver& maneuver);
 
 }  // namespace jarol::distributers

@@ -159,6 +159,7 @@ class LauvOperator {
   double altitude() const;  // m over the sea floor; negative: not known
 
   // of plans; each returns why not, or nothing
+  bool has_altimeter() const { return altitude_.count >= 0; }
   std::string start_plan(const imc::PlanControl& request, std::uint16_t who);
   std::string load_plan(const imc::PlanControl& request, std::uint16_t who);
   std::string execute(Plan plan);

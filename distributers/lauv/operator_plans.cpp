@@ -1,6 +1,7 @@
 // The operator's plans and maneuvers.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 
@@ -12,6 +13,7 @@ namespace jarol::distributers {
 namespace {
 
 constexpr std::string_view no_place = "GPS has given no fix yet: nobody knows where the vehicle is";
+constexpr std::string_view no_altimeter = "the vehicle has no altimeter: no altitude can be kept";
 constexpr std::string_view run_ends = "the run is ending: the vehicle is brought to rest";
 
 std::uint16_t system_of(const messages::MessageRef& from) {
@@ -106,6 +108,9 @@ std::string LauvOperator::execute(Plan plan) {
   if (mode_ == Mode::error) return "just aborted";
   if (alarm_ != tasks::Alarm::none) return fmt::format("the vehicle comes up: {}", name_of(alarm_));
   if (placeless_ && needs_place(plan.maneuvers[plan.start])) return std::string(no_place);
+  if (!has_altimeter() && std::any_of(plan.maneuvers.begin(), plan.maneuvers.end(),
+                                      [](const Maneuver& each) { return needs_altitude(each); }))
+    return std::string(no_altimeter);
   plan_.stop("");
   plan_.start(std::move(plan), motion_, now_);
   log(imc::LogBookEntry::Type::INFO, fmt::format("plan '{}' begins", plan_.name()));
@@ -168,6 +173,8 @@ void LauvOperator::note_progress(const tasks::Progress& progress, messages::Rece
 void LauvOperator::reference(const imc::Reference& reference, const From& from) {
   const auto* header = static_cast<const imc::Header*>(from.header);
   try {
+    if (plan_.follower() != nullptr && !has_altimeter() && needs_altitude(reference))
+      throw std::invalid_argument(std::string(no_altimeter));
     if (plan_.follow(reference, header == nullptr ? 0xffff : header->src, header == nullptr ? 0xff : header->src_ent,
                      now_, origin_, motion_))
       follow_plan();

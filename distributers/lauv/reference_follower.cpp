@@ -35,6 +35,11 @@ double radius_on(Course course, double radius) {
 
 }  // namespace
 
+bool needs_altitude(const imc::Reference& reference) {
+  return (reference.flags & imc::Reference::Flags::Z) != 0 &&
+         read<imc::DesiredZ>(reference.z, "z").z_units == imc::ZUnits::ALTITUDE;
+}
+
 ReferenceFollower::ReferenceFollower(const Maneuver& maneuver, Duration now, const FlightLimits& limits)
     : source_(maneuver.control_source),
       entity_(maneuver.control_entity),

@@ -10,6 +10,9 @@
 
 namespace jarol::distributers {
 
+/// Throws std::invalid_argument where its z can't be read.
+bool needs_altitude(const messages::imc::Reference& reference);
+
 class ReferenceFollower {
  public:
   ReferenceFollower(const Maneuver& maneuver, Duration now, const FlightLimits& limits = {});

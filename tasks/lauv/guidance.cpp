@@ -107,10 +107,12 @@ double keep_station(const Param& p, const In& in, State& state, Progress& progre
   return std::atan2(y, x);
 }
 
+bool level_is_known(const In& in) { return in.leg.vertical == Vertical::depth || in.instruments.altitude.count > 0; }
+
 double depth_of(const In& in, double z) {
   if (in.leg.vertical == Vertical::depth) return z;
   const Motion& m = in.motion;
-  if (in.instruments.altitude.count < 1) return m.z;
+  if (!level_is_known(in)) return m.z;
   return std::max(m.z + in.instruments.altitude.value * std::cos(m.theta) * std::cos(m.phi) - z, 0.0);
 }
 
@@ -159,7 +161,7 @@ void LauvGuidance::run(const Param& p, const Tick& tick, const In& in, State& st
   }
   to.speed = drives ? leg.surge : 0;
   to.thrust = drives ? leg.thrust : 0;
-  progress.levelled = std::abs(depth - in.motion.z) < p.level;
+  progress.levelled = level_is_known(in) && std::abs(depth - in.motion.z) < p.level;
 
   state.arrived |= progress.near;
   const bool lasts = leg.course != Course::line;

@@ -26,7 +26,8 @@ namespace jarol::tasks {
 /// by what navigation says, but farther off than `miss` and twice that radius, as after a leap of its place or out of a
 /// current, steers for it anew: the line begins where the vehicle is. Depth counts nothing there, as in DUNE. A station
 /// is driven to at its depth, and where the vehicle has been there back to at the surface, on which it floats,
-/// within 2.5 radii, as DUNE does.
+/// within 2.5 radii, as DUNE does. An altitude is not reached before the altimeter has reported one; until then the
+/// vehicle keeps its depth.
 struct LauvGuidance {
   static constexpr std::string_view summary = "follows the legs of a plan: lines, circles, stations";
   struct Param {

@@ -38,8 +38,11 @@ struct Reports : Conversation {
   }
 };
 
-tasks::Instruments with_altitude(double value, std::int64_t count) {
+tasks::Instruments with_altitude(double value, std::int64_t count, std::int64_t fixes = 0) {
   tasks::Instruments i;
+  i.place.count = fixes;
+  i.latitude = 41.1850 * degree;
+  i.longitude = -8.7062 * degree;
   i.altitude = {value, count};
   return i;
 }
@@ -199,5 +202,35 @@ TEST_SUITE("distributers/lauv/operator_places") {
     found.report(fixed);
     CHECK(navigation(found).empty());
     CHECK(found.start(latitude, longitude) == "");
+  }
+
+  TEST_CASE("where there is no altimeter altitudes are refused, in plans and in references") {
+    Reports c;
+    imc::Goto m;
+    m.lat = 41.1850 * degree;
+    m.lon = -8.7062 * degree;
+    m.speed = 1;
+    m.z = 5;
+    m.z_units = imc::ZUnits::ALTITUDE;
+    c.report(with_altitude(0, 0, 1));
+    CHECK(c.start_of(m) == "");
+    c.report(with_altitude(0, -1, 1));
+    CHECK(c.start_of(m) == "the vehicle has no altimeter: no altitude can be kept");
+    imc::FollowReference follow;
+    follow.control_src = 0xffff;
+    follow.control_ent = 0xff;
+    CHECK(c.start_of(follow) == "");
+    imc::Reference reference;
+    reference.flags = imc::Reference::Flags::Z;
+    REQUIRE(messages::put_inline(messages::refer_to(imc::DesiredZ{5, imc::ZUnits::ALTITUDE}), reference.z));
+    c.say(reference);
+    c.pass(50ms);
+    CHECK(c.to.last<imc::LogBookEntry>().text ==
+          "a reference is left out: the vehicle has no altimeter: no altitude can be kept");
+    m.z_units = imc::ZUnits::DEPTH;
+    CHECK(c.start_of(m) == "");
+    c.report(with_altitude(9, 1, 2));
+    m.z_units = imc::ZUnits::ALTITUDE;
+    CHECK(c.start_of(m) == "");
   }
 }

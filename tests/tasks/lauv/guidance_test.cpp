@@ -183,6 +183,28 @@ TEST_SUITE("tasks/lauv_guidance") {
     CHECK(v.out.setpoint.depth == doctest::Approx(10 + 6 * 0.5 - 4));
   }
 
+  TEST_CASE("an altitude is not reached before the altimeter has reported one") {
+    for (const std::int64_t count : {-1, 0}) {
+      Vehicle v;
+      v.in.leg = {.number = 1,
+                  .course = Course::circle,
+                  .radius = 10,
+                  .until_level = true,
+                  .vertical = Vertical::altitude,
+                  .level = 4,
+                  .surge = 1};
+      v.in.motion.z = 2;
+      v.in.instruments.altitude.count = count;
+      v.step(20);
+      CHECK_FALSE(v.out.progress.levelled);
+      CHECK_FALSE(v.out.progress.done);
+      v.in.instruments.altitude = {4.2, 1};
+      v.step();
+      CHECK(v.out.progress.levelled);
+      CHECK(v.out.progress.done);
+    }
+  }
+
   TEST_CASE("at its station the propeller stops until it has drifted to the edge") {
     Vehicle v;
     v.in.leg = {.number = 1, .course = Course::station, .north = 30, .radius = 10, .surge = 1};
