@@ -12,7 +12,7 @@ using State = LauvGuidance::State;
 
 constexpr double slowest = 0.1;            // m/s, of which times and drift are reckoned
 constexpr double sharpest = 100 * degree;  // turn that is prepared
-constexpr double surface_share = 2.5;      // of a station's radius, within which it is come back to at the surface
+constexpr double surface_share = 2.5;      // of a station's radius: so far it is kept, and come back to at the surface
 
 void begin(const Param& p, const In& in, State& state) {
   const bool joins = state.has_end && std::hypot(in.motion.x - state.end_x, in.motion.y - state.end_y) <
@@ -107,6 +107,12 @@ double keep_station(const Param& p, const In& in, State& state, Progress& progre
   return std::atan2(y, x);
 }
 
+// Farther off its circle or station than what it swings about them: its time there does not count on.
+bool is_swept_away(const Param& p, const Leg& leg, const Progress& progress) {
+  if (leg.course == Course::circle) return std::abs(progress.cross_track) > p.miss;
+  return leg.course == Course::station && progress.distance > surface_share * std::max(leg.radius, p.reach);
+}
+
 bool level_is_known(const In& in) { return in.leg.vertical == Vertical::depth || in.instruments.altitude.count > 0; }
 
 double depth_of(const In& in, double z) {
@@ -165,7 +171,7 @@ void LauvGuidance::run(const Param& p, const Tick& tick, const In& in, State& st
 
   state.arrived |= progress.near;
   const bool lasts = leg.course != Course::line;
-  if (state.arrived) state.since += dt;
+  if (state.arrived && !is_swept_away(p, leg, progress)) state.since += dt;
   if (lasts) progress.left = leg.duration > 0 ? std::max(leg.duration - state.since, 0.0) : -1;
   const std::int64_t fixes = in.instruments.place.count;
   const bool over = leg.course == Course::fix ? fixes < 0 || fixes > state.fixes

@@ -26,8 +26,9 @@ namespace jarol::tasks {
 /// by what navigation says, but farther off than `miss` and twice that radius, as after a leap of its place or out of a
 /// current, steers for it anew: the line begins where the vehicle is. Depth counts nothing there, as in DUNE. A station
 /// is driven to at its depth, and where the vehicle has been there back to at the surface, on which it floats,
-/// within 2.5 radii, as DUNE does. An altitude is not reached before the altimeter has reported one; until then the
-/// vehicle keeps its depth.
+/// within 2.5 radii, as DUNE does. Its time counts while the vehicle is within them, that of a circle while it is
+/// within `miss` of it. An altitude is not reached before the altimeter has reported one; until then the vehicle keeps
+/// its depth.
 struct LauvGuidance {
   static constexpr std::string_view summary = "follows the legs of a plan: lines, circles, stations";
   struct Param {
@@ -78,8 +79,9 @@ struct LauvGuidance {
                       field<&S::end_x>("m", "of the last line"), field<&S::end_y>("m", "of the last line"),
                       field<&S::begin_x>("m", "of the line"), field<&S::begin_y>("m", "of the line"),
                       field<&S::returns>("", "to the end of a line that it has missed"),
-                      field<&S::sigma>("m", "integral of the cross-track error"), field<&S::since>("s", "it is there"),
-                      field<&S::arrived>(), field<&S::drifted>("", "away from its station"), field<&S::done>(),
+                      field<&S::sigma>("m", "integral of the cross-track error"),
+                      field<&S::since>("s", "that it was there"), field<&S::arrived>(),
+                      field<&S::drifted>("", "away from its station"), field<&S::done>(),
                       field<&S::fixes>("", "of GPS when the leg began"),
                       field<&S::depth>("m", "commanded on the way up and down"), field<&S::descends>());
     }

@@ -241,6 +241,32 @@ TEST_SUITE("tasks/lauv_guidance") {
     CHECK(v.out.setpoint.depth == 3);
   }
 
+  TEST_CASE(
+      "at a station or on a circle the time counts that it is within 2.5 radii, or 15 m, not that it is swept away") {
+    for (const Course course : {Course::station, Course::circle}) {
+      CAPTURE(static_cast<int>(course));
+      Vehicle v;
+      v.in.leg = {.number = 1, .course = course, .radius = 10, .duration = 10, .level = 3, .surge = 1};
+      const auto stay = [&](double x, int steps) {
+        for (; steps > 0; --steps) {
+          v.in.motion.x = x;
+          v.in.motion.y = 0;
+          v.step();
+        }
+      };
+      stay(9, 40);
+      stay(24.9, 60);
+      CHECK(v.out.progress.left == doctest::Approx(5));
+      stay(25.1, 2000);
+      CHECK_FALSE(v.out.progress.done);
+      CHECK(v.out.progress.left == doctest::Approx(5));
+      stay(9, 98);
+      CHECK_FALSE(v.out.progress.done);
+      stay(9, 4);
+      CHECK(v.out.progress.done);
+    }
+  }
+
   TEST_CASE("for a fix the propeller is off until GPS has found it once more; without GPS it does not wait") {
     Vehicle v;
     v.in.instruments.place.count = 7;
