@@ -14,6 +14,8 @@ using namespace std::chrono_literals;
 using tasks::Drive;
 using tasks::Turn;
 
+constexpr double astern_depth = 0.2;  // m
+
 }  // namespace
 
 bool LauvOperator::is_finite(double value) {
@@ -67,6 +69,19 @@ void LauvOperator::desired_speed(const imc::DesiredSpeed& speed) {
   tasks::Setpoint& setpoint = in.setpoint.renew();
   setpoint.drive = percent ? Drive::thrust : Drive::speed;
   (percent ? setpoint.thrust : setpoint.speed) = percent ? std::clamp(speed.value / 100, -1.0, 1.0) : speed.value;
+  stop_astern();
+}
+
+// Astern the fins steer the other way round. Below the surface it sinks with 20 % already, and noses up beyond its
+// limit with 70 %; stopped at that depth it comes to 2.2 m and 41 degrees at most (specs/vehicles, with 20 to 100 %).
+bool LauvOperator::may_go_astern() const { return depth_ <= astern_depth; }
+
+void LauvOperator::stop_astern() {
+  if (may_go_astern() || in.setpoint->drive != Drive::thrust || in.setpoint->thrust >= 0) return;
+  in.setpoint.renew().thrust = 0;
+  refuse(fmt::format(
+      "astern it goes at the surface only; below {} m the propeller stops, as the fins steer the other way round",
+      astern_depth));
 }
 
 // An operator who has propeller and fins in hand; a graph that has no use for it does not take the channel.
@@ -124,6 +139,7 @@ void LauvOperator::set_mode(Mode mode) {
 
 void LauvOperator::reach(Duration instant, messages::Receiver& system) {
   if (mode_ == Mode::teleoperation) steer_by_hand(instant);
+  stop_astern();
   now_ = instant;
   if (mode_ == Mode::error && now_ - *aborted_ >= 1s) set_mode(Mode::service);
   if (plan_.pass(now_)) follow_plan();

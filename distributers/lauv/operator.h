@@ -49,10 +49,10 @@ struct LauvOperatorParameters {
 /// plan, an Abort stops the propeller, so that the vehicle comes up. An Abort, and the stop of a plan or maneuver, also
 /// has an alarm of the vehicle forgotten whose cause is gone; until then its state is an error. While a plan runs a
 /// stick that rests counts for nothing, as the vehicle's DUNE has it: only in its Teleoperation does a hand steer, and
-/// nobody has to be heard. Another who has the link now is the operator from when it commands: until then it is the one
-/// before that is silent. What is asked is answered at the next instant. While the vehicle is brought to rest at the
-/// end of a run no plan begins; a stop is obeyed in place of what brings it there. No plan goes by places while
-/// nobody knows where the vehicle is.
+/// nobody has to be heard. Astern it is driven at the surface only. Another who has the link now is the operator from
+/// when it commands: until then it is the one before that is silent. What is asked is answered at the next instant.
+/// While the vehicle is brought to rest at the end of a run no plan begins; a stop is obeyed in place of what brings it
+/// there. No plan goes by places while nobody knows where the vehicle is, nor by altitudes where it has no altimeter.
 class LauvOperator {
  public:
   static constexpr std::string_view summary = "the submarine's operator, over IMC";
@@ -151,15 +151,17 @@ class LauvOperator {
   bool is_finite(double value);  // else that is counted
   void note_command();
   bool use_autopilot();
+  bool may_go_astern() const;
+  void stop_astern();
   void start_teleoperation();
   void demand_stop();
   void stop();
   void set_mode(Mode mode);
   void move_origin(const Origin& to);
   double altitude() const;  // m over the sea floor; negative: not known
+  bool has_altimeter() const { return altitude_.count >= 0; }
 
   // of plans; each returns why not, or nothing
-  bool has_altimeter() const { return altitude_.count >= 0; }
   std::string start_plan(const imc::PlanControl& request, std::uint16_t who);
   std::string load_plan(const imc::PlanControl& request, std::uint16_t who);
   std::string execute(Plan plan);
@@ -210,6 +212,7 @@ class LauvOperator {
   std::uint32_t stops_ = 0;    // demanded by the operator
   tasks::Alarm alarm_ = tasks::Alarm::none;
   double heading_ = 0;        // of the vehicle, as reported last
+  double depth_ = 0;          // likewise
   tasks::Motion motion_;      // likewise
   tasks::Stream stream_;      // likewise
   tasks::Reading altitude_;   // likewise

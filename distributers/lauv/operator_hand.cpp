@@ -36,6 +36,7 @@ void LauvOperator::remote_actions(const imc::RemoteActions& message) {
   if (const auto thrust = actions.number("Thrust"); thrust && *thrust != thrust_axis_) {
     thrust_axis_ = *thrust;
     setpoint.thrust = std::clamp(thrust_axis_ / axis_end, -1.0, 1.0) * parameters_.full_thrust;
+    stop_astern();
   }
   button_ = (actions.is_set("Accelerate") ? 1 : 0) - (actions.is_set("Decelerate") ? 1 : 0);
   if (actions.is_set("Stop")) setpoint.thrust = 0;
@@ -55,7 +56,7 @@ void LauvOperator::steer_by_hand(Duration instant) {
   if (button_ != 0) {
     const double change = button_ * parameters_.button_rate * seconds(instant - now_);
     double& thrust = in.setpoint.renew().thrust;
-    thrust = std::clamp(thrust + change, -parameters_.full_thrust, parameters_.full_thrust);
+    thrust = std::clamp(thrust + change, may_go_astern() ? -parameters_.full_thrust : 0, parameters_.full_thrust);
   }
   const bool rests = in.setpoint->thrust == 0 && in.setpoint->rate == 0;
   if (rests || !hand_heard_ || seconds(instant - *hand_heard_) < parameters_.silence) return;

@@ -216,6 +216,7 @@ void LauvOperator::send_report(const tasks::VehicleReport& report, messages::Rec
     stop();
   }
   heading_ = report.heading;
+  depth_ = report.depth;
   if (motion_sent_) return;
   tasks::Motion motion;
   motion.z = report.depth;
@@ -229,6 +230,7 @@ void LauvOperator::send_motion(const tasks::Motion& motion, messages::Receiver& 
   motion_sent_ = true;
   motion_ = motion;
   heading_ = motion.psi;
+  depth_ = motion.z;
   send_state(motion, system);
 }
 

@@ -11,64 +11,12 @@
 #include "distributers/messages/payload.h"
 #include "graph/math/geometry.h"
 #include "tests/distributers/lauv_console.h"
-#include "tools/library/session.h"
+#include "tests/tools/lauv_mission.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::tests;
-
-// The vehicle and its tasks, with a console in place of the script; both meet each 100 ms, as by a link.
-class Mission {
- public:
-  explicit Mission(std::vector<std::string> set = {}) : session_(open(std::move(set))) {}
-
-  template <class M>
-  void say(const M& message) {
-    console.say(message);
-  }
-  // Until that is so, and at most for that time. False: it never was.
-  bool fly(
-      Duration longest, const std::function<bool()>& until = [] { return false; }) {
-    for (const Duration end = session_.now() + longest; session_.now() < end;) {
-      step();
-      if (until()) return true;
-    }
-    return false;
-  }
-  double truth(const char* field) const { return session_.true_value(std::string(field) + " of dune"); }
-  tasks::Progress progress() const { return session_.value<tasks::Progress>("guidance.progress"); }
-  imc::PlanControlState plan() const { return console.to.last<imc::PlanControlState>(); }
-  bool is_over() const { return plan().state != imc::PlanControlState::State::EXECUTING; }
-  Duration now() const { return session_.now(); }
-
-  Conversation console;
-
- private:
-  static Session open(std::vector<std::string> set) {
-    set.emplace_back("distributers.dune.link.parameters.dynamics=rigid");
-    set.emplace_back("expect=nothing");
-    return jarol::open("specs/exolauv.yaml", {.set = std::move(set), .seed = 3, .fed = {"neptus"}});
-  }
-  void step() {
-    auto& adapter = console.adapter;
-    console.pass(100ms);
-    feed<&LauvOperator::In::setpoint>("neptus.setpoint", setpoint_);
-    feed<&LauvOperator::In::leg>("neptus.leg", leg_);
-    session_.feed("neptus.contact", console.contact());
-    session_.run_for(100ms);
-    adapter.hand_over<&LauvOperator::Out::report>(session_.value<tasks::VehicleReport>("report.report"), console.to);
-    adapter.hand_over<&LauvOperator::Out::motion>(session_.value<tasks::Motion>("navigation.motion"), console.to);
-    adapter.hand_over<&LauvOperator::Out::progress>(progress(), console.to);
-  }
-  template <auto Channel, class T>
-  void feed(const char* name, T& value) {
-    if (console.adapter.take<Channel>(value)) session_.feed(name, value);
-  }
-
-  Session session_;
-  tasks::Setpoint setpoint_;
-  tasks::Leg leg_;
-};
+using test::Mission;
 
 constexpr double latitude = 41.1850 * degree, longitude = -8.7062 * degree;
 

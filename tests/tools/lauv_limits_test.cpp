@@ -8,14 +8,12 @@
 #include <vector>
 
 #include "graph/math/geometry.h"
-#include "tasks/values/alarm.h"
-#include "tasks/values/guidance.h"
-#include "tasks/values/lauv.h"
-#include "tools/library/session.h"
+#include "tests/tools/lauv_mission.h"
 
 namespace {
 using namespace jarol;
-using namespace std::chrono_literals;
+using namespace jarol::tests;
+using test::Mission;
 
 const bool in_full = std::getenv("JAROL_FULL") != nullptr;
 
@@ -104,6 +102,38 @@ TEST_SUITE("tools/lauv_limits") {
             CHECK(reached.depth > (by_depth ? speed < 1 ? 1.0 : 11.0 : 1.0));
           }
         }
+      }
+    }
+  }
+
+  TEST_CASE("a console that sends it deeper or astern has it within its limits, without an alarm") {
+    for (const std::string profile : {"", "at_sea", "submarine_dune"}) {
+      for (const double percent : {-20.0, -70.0, -100.0}) {
+        CAPTURE(profile);
+        CAPTURE(percent);
+        Mission mission({}, profile);
+        Reached reached;
+        const auto fly = [&](Duration time) {
+          for (const Duration end = mission.now() + time; mission.now() < end;) {
+            mission.say(imc::Heartbeat{});
+            mission.fly(100ms);
+            reached.depth = std::max(reached.depth, mission.truth("depth"));
+            reached.pitch = std::max(reached.pitch, std::abs(mission.truth("pitch")));
+            if (reached.alarm == tasks::Alarm::none) reached.alarm = mission.alarm();
+          }
+        };
+        mission.say(imc::DesiredZ{50, imc::ZUnits::DEPTH});
+        mission.say(imc::DesiredSpeed{1.2, imc::SpeedUnits::METERS_PS});
+        fly(60s);
+        CHECK(reached.depth == doctest::Approx(11.55).scale(0).epsilon(0.01));
+        mission.say(imc::DesiredSpeed{percent, imc::SpeedUnits::PERCENTAGE});
+        fly(300s);  // up, by buoyancy
+        mission.say(imc::DesiredZ{0, imc::ZUnits::DEPTH});
+        mission.say(imc::DesiredSpeed{percent, imc::SpeedUnits::PERCENTAGE});
+        fly(60s);
+        CHECK(reached.alarm == tasks::Alarm::none);
+        CHECK(reached.depth < 12);
+        CHECK(reached.pitch < 50 * degree);
       }
     }
   }

@@ -98,4 +98,46 @@ TEST_SUITE("distributers/lauv_operator_hand") {
     c.act("Thrust=127");
     check(c.setpoint(), by_hand(0, 0.7));
   }
+
+  TEST_CASE("astern it is driven at the surface only, and who wants it below is told why not") {
+    const char* const why =
+        "astern it goes at the surface only; below 0.2 m the propeller stops, as the fins steer the other way round";
+    const auto at_depth = [](Conversation& c, double depth) { c.report({.depth = depth}); };
+    const auto refusals = [&](const Conversation& c) {
+      std::size_t n = 0;
+      for (const auto& entry : c.to.all<imc::LogBookEntry>()) n += entry.text == why ? 1 : 0;
+      return n;
+    };
+    Conversation c;
+    at_depth(c, 0.2);
+    c.act("Thrust=-127");
+    check(c.setpoint(), by_hand(0, -0.7));
+    at_depth(c, 0.21);  // it has gone under meanwhile
+    c.pass(50ms);
+    c.pass(50ms);
+    check(c.setpoint(), by_hand(0, 0));
+    CHECK(refusals(c) == 1);
+    c.act("Thrust=-100");
+    check(c.setpoint(), by_hand(0, 0));
+    c.act("Decelerate=1");
+    c.pass(1s);
+    check(c.setpoint(), by_hand(0, 0));
+    CHECK(refusals(c) == 2);
+    c.act("Decelerate=0;Thrust=127");
+    check(c.setpoint(), by_hand(0, 0.7));
+
+    c.say(imc::DesiredSpeed{-50, imc::SpeedUnits::PERCENTAGE});
+    CHECK(c.setpoint().thrust == 0);
+    c.pass(50ms);
+    CHECK(refusals(c) == 3);
+    c.say(imc::DesiredSpeed{50, imc::SpeedUnits::PERCENTAGE});
+    CHECK(c.setpoint().thrust == 0.5);
+    at_depth(c, 0.1);
+    c.say(imc::DesiredSpeed{-50, imc::SpeedUnits::PERCENTAGE});
+    CHECK(c.setpoint().thrust == -0.5);
+    c.say(imc::DesiredSpeed{1, imc::SpeedUnits::METERS_PS});
+    at_depth(c, 3);
+    c.pass(50ms);
+    CHECK(refusals(c) == 3);
+  }
 }
