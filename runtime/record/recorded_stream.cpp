@@ -59,7 +59,7 @@ void RecordedStream::append_beside(std::size_t i, Duration instant, const void* 
 // later parts of a recording.
 void RecordedStream::pause() {
   if (chunk_->messages() == 0) return;
-  if (chunk_->records().size() >= small_chunk_bytes || (pressure_ == Pressure::keeps && queue_.pushed() != pushed_) ||
+  if (chunk_->records().size() >= small_chunk_bytes || (is_needed() && queue_.pushed() != pushed_) ||
       std::chrono::steady_clock::now() - handed_on_ >= std::chrono::milliseconds(200))
     hand_on();
 }
@@ -75,7 +75,7 @@ void RecordedStream::hand_on(bool last) {
   if (gap_) put(beside_[1], Duration(gap_->to), &*gap_, beside_[1].encoder.size(&*gap_));
   chunk_->seal();
   if (pressure_ == Pressure::drops && !last && !queue_.push_if_room(chunk_)) return add_to_gap(values);
-  if (pressure_ == Pressure::waits && chunk_) queue_.wait_and_push(std::move(chunk_));
+  if (waits() && chunk_) queue_.wait_and_push(std::move(chunk_));
   if (chunk_) queue_.push(std::move(chunk_));
   pushed_ = queue_.pushed();
   chunk_ = queue_.empty_chunk();

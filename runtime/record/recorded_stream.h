@@ -22,9 +22,9 @@ struct RecordedTopic {
 
 class RecordedStream final : public RecordSink {
  public:
-  /// What becomes of chunks where the disk is behind. What keeps them all is needed to replay the others, and goes out
-  /// with each chunk of theirs.
-  enum class Pressure { keeps, waits, drops };
+  /// What becomes of chunks where the disk is behind. What is kept is needed to replay the others, and goes out
+  /// with each chunk of theirs: on the real clock however many wait already, else once there is room.
+  enum class Pressure { keeps, keeps_by_waiting, waits, drops };
 
   /// By output the topic for it; none: it is not recorded. `beside`: the topics for events and gaps. `schemas`: of all.
   RecordedStream(ChunkQueue& queue, Pressure pressure, const std::vector<mcap::Schema>& schemas,
@@ -54,6 +54,8 @@ class RecordedStream final : public RecordSink {
   static constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
   static constexpr std::size_t small_chunk_bytes = std::size_t{1} << 16;
 
+  bool is_needed() const { return pressure_ == Pressure::keeps || pressure_ == Pressure::keeps_by_waiting; }
+  bool waits() const { return pressure_ == Pressure::keeps_by_waiting || pressure_ == Pressure::waits; }
   void append(Lane& lane, Duration instant, const void* value);
   void put(Lane& lane, Duration instant, const void* value, std::size_t size);
   void hand_on(bool last = false);

@@ -61,7 +61,9 @@ void RecordingWriter::add_inputs(const Graph& graph) {
   const std::vector<RecordedTopic> beside{topic(std::string(topics::end), type_of<LogEnd>()),
                                           topic(std::string(topics::checkpoints), type_of<SavedState>()),
                                           topic(std::string(topics::ended), type_of<EndedBy>())};
-  inputs_.emplace(queue_, RecordedStream::Pressure::keeps, schemas_, topics, beside);
+  using Pressure = RecordedStream::Pressure;
+  inputs_.emplace(queue_, header_.clock == "real" ? Pressure::keeps : Pressure::keeps_by_waiting, schemas_, topics,
+                  beside);
 }
 
 void RecordingWriter::add_publications(const Graph& graph, const std::vector<const Type*>& truths) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <span>
+#include <thread>
 
 #include "graph/values/type_of.h"
 #include "runtime/mcap/reader.h"
@@ -200,6 +201,27 @@ TEST_SUITE("runtime/recorded_stream") {
     const Written& written = run.end();
     CHECK(written.chunks == 3 + ChunkQueue::room);
     CHECK(written.values == std::vector<std::int64_t>{0, 1, 2});
+  }
+
+  TEST_CASE(
+      "what a replay needs waits for the writer where the run may wait, and goes out with the other pieces, too") {
+    HeldUp run(Pressure::keeps_by_waiting);
+    run.take(1);
+    run.stream().pause();
+    run.take(1);
+    run.fill_queue();
+    std::atomic<bool> went_on{false};
+    std::thread waiting([&] {
+      run.stream().pause();
+      went_on = true;
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    CHECK_FALSE(went_on);
+    run.let_go();
+    waiting.join();
+    const Written& written = run.end();
+    CHECK(written.chunks == 2 + ChunkQueue::room);
+    CHECK(written.values == std::vector<std::int64_t>{0, 1});
   }
 
   TEST_CASE("what a replay needs is never left out, however long the writer is held up") {
