@@ -30,6 +30,7 @@ void RecordedStream::take(Duration instant, std::uint32_t output, const void* va
 }
 
 void RecordedStream::append(Lane& lane, Duration instant, const void* value) {
+  newest_ = instant;
   const std::size_t size = lane.encoder.size(value);
   if (chunk_->records().size() + size > chunk_bytes && chunk_->messages() > 0) hand_on();
   put(lane, instant, value, size);
@@ -66,6 +67,24 @@ void RecordedStream::pause() {
 
 void RecordedStream::finish() {
   if (chunk_->messages() > 0 || gap_) hand_on(true);
+  is_finished_ = true;
+}
+
+// What a replay needs can't lack anything: its recorder fails then.
+void RecordedStream::take_loss(const Loss& loss) {
+  if (!is_needed()) add_to_gap(loss.from.count(), loss.to.count(), loss.values);
+}
+
+void RecordedStream::end_unfinished(Duration covered) {
+  if (is_finished_ || !newest_) return;
+  const std::int64_t last = std::max(covered, *newest_).count();
+  add_to_gap(newest_->count(), last, 0);
+  if (chunk_) {
+    drop_chunk(chunk_->messages());
+  } else {
+    chunk_ = queue_.empty_chunk();
+  }
+  hand_on(true);
 }
 
 // A gap stands in the chunk that follows it.
@@ -74,7 +93,10 @@ void RecordedStream::hand_on(bool last) {
   const std::uint64_t values = chunk_->messages();
   if (gap_) put(beside_[1], Duration(gap_->to), &*gap_, beside_[1].encoder.size(&*gap_));
   chunk_->seal();
-  if (pressure_ == Pressure::drops && !last && !queue_.push_if_room(chunk_)) return add_to_gap(values);
+  if (pressure_ == Pressure::drops && !last && !queue_.push_if_room(chunk_)) {
+    dropped_ += values;
+    return drop_chunk(values);
+  }
   if (waits() && chunk_) queue_.wait_and_push(std::move(chunk_));
   if (chunk_) queue_.push(std::move(chunk_));
   pushed_ = queue_.pushed();
@@ -83,14 +105,17 @@ void RecordedStream::hand_on(bool last) {
   is_first_ = false;
 }
 
-void RecordedStream::add_to_gap(std::uint64_t values) {
-  if (!gap_) gap_ = Gap{chunk_->start(), chunk_->end(), 0};
-  gap_->from = std::min(gap_->from, chunk_->start());
-  gap_->to = std::max(gap_->to, chunk_->end());
-  gap_->values += values;
-  dropped_ += values;
+void RecordedStream::drop_chunk(std::uint64_t values) {
+  if (values > 0) add_to_gap(chunk_->start(), chunk_->end(), values);
   chunk_->clear();
   if (is_first_) are_described_ = false;  // they were in it
+}
+
+void RecordedStream::add_to_gap(std::int64_t from, std::int64_t to, std::uint64_t values) {
+  if (!gap_) gap_ = Gap{from, to, 0};
+  gap_->from = std::min(gap_->from, from);
+  gap_->to = std::max(gap_->to, to);
+  gap_->values += values;
 }
 
 }  // namespace jarol

@@ -33,11 +33,15 @@ class RecordedStream final : public RecordSink {
   bool wants(std::uint32_t output) const override { return output < lanes_.size() && lanes_[output].wanted; }
   void take(Duration instant, std::uint32_t output, const void* value) override;
   void take_event(const RunEvent& event) override;
+  void take_loss(const Loss& loss) override;
   void pause() override;
   void finish() override;
 
   /// A value of the i-th topic beside the outputs.
   void append_beside(std::size_t i, Duration instant, const void* value);
+  /// Of a run of the instants before `covered`, after the last call by its recorder. Where that has not let it finish,
+  /// as it threw something, what was not written is a gap.
+  void end_unfinished(Duration covered);
   /// Names of tasks, for events.
   void name_tasks(std::vector<std::string> names) { task_names_ = std::move(names); }
 
@@ -59,7 +63,8 @@ class RecordedStream final : public RecordSink {
   void append(Lane& lane, Duration instant, const void* value);
   void put(Lane& lane, Duration instant, const void* value, std::size_t size);
   void hand_on(bool last = false);
-  void add_to_gap(std::uint64_t values);
+  void drop_chunk(std::uint64_t values);
+  void add_to_gap(std::int64_t from, std::int64_t to, std::uint64_t values);
 
   ChunkQueue& queue_;
   const Pressure pressure_;
@@ -74,6 +79,8 @@ class RecordedStream final : public RecordSink {
   bool is_first_ = true;    // no chunk was written yet
   std::optional<Gap> gap_;  // since the newest chunk that was written
   std::uint64_t dropped_ = 0;
+  std::optional<Duration> newest_;  // instant of the newest message
+  bool is_finished_ = false;
 };
 
 constexpr std::array<Enumerator<RunEvent::Kind>, 4> enumerators(RunEvent::Kind) {

@@ -70,7 +70,7 @@ void Recorder::append_large(Duration instant, std::uint32_t output, const void* 
   if (size > max_bytes)
     return lose(instant, output, size, "values of up to " + std::to_string(max_bytes) + " can be recorded");
   if (used_ > 0) next_chunk();
-  if (is_cut_off_) return;
+  if (is_cut_off_) return lost_values_.add(instant, output);
   const std::size_t bytes = sizeof(RecordHeader) + ((size + 7U) & ~std::size_t{7});
   std::byte* const room = large_.room(written_.load(std::memory_order_relaxed) % chunks, bytes, [this] {
     if (waits_) catch_up();
@@ -86,6 +86,7 @@ void Recorder::append_large(Duration instant, std::uint32_t output, const void* 
 }
 
 void Recorder::lose(Duration instant, std::uint32_t output, std::size_t size, const std::string& why) {
+  lost_values_.add(instant, output);
   if (!lost_.empty()) return;
   lost_ = "output '" + outputs_[output].name + "' had " + std::to_string(size) + " bytes at " +
           std::to_string(instant.count()) + "ns; " + why;
@@ -123,11 +124,12 @@ void Recorder::append_event(const RunEvent& event) {
   const std::size_t length = std::min(words.size(), room.size() - sizeof header);
   std::memcpy(room.data(), &header, sizeof header);
   std::memcpy(room.data() + sizeof header, words.data(), length);
-  append(event.instant, event_output, room.data(), static_cast<std::uint32_t>(sizeof header + length));
+  append(event.instant, RecordHeader::event, room.data(), static_cast<std::uint32_t>(sizeof header + length));
 }
 
 void Recorder::close() {
   if (!thread_.joinable()) return;
+  if (is_cut_off_) lost_values_.add_all(now_, used_);
   if (used_ > 0 && !is_cut_off_) publish_chunk();
   written_.fetch_or(ended, std::memory_order_release);
   wake();
@@ -164,6 +166,7 @@ void Recorder::next_chunk() {
   if (!waits_ && written_.load(std::memory_order_relaxed) + 1 - read_.load(std::memory_order_acquire) >= chunks)
     cut_off();
   if (is_cut_off_) {
+    lost_values_.add_all(now_, used_);
     used_ = 0;
     return;
   }
@@ -211,6 +214,7 @@ void Recorder::run() {
   }
   for (RecordSink* sink : taking_) {
     try {
+      if (const auto loss = lost_values_.of(*sink)) sink->take_loss(*loss);
       sink->finish();
     } catch (...) { note_failure(sink); }
   }
@@ -282,7 +286,7 @@ void Recorder::hand_on_event(const RecordHeader& header, const std::byte* packed
 }
 
 void Recorder::hand_on(const RecordHeader& header, const std::byte* packed) {
-  if (header.output == event_output) return hand_on_event(header, packed);
+  if (header.output == RecordHeader::event) return hand_on_event(header, packed);
   const void* value = value_of(header, packed);
   each_taking([&](RecordSink& sink) { sink.take(header.instant, header.output, value); });
 }

@@ -21,16 +21,11 @@
 #include "runtime/machine/prefetch.h"
 #include "runtime/plan/output.h"
 #include "runtime/record/large_values.h"
+#include "runtime/record/lost_values.h"
+#include "runtime/record/record_header.h"
 #include "runtime/record/sink.h"
 
 namespace jarol {
-
-/// What stands before each recorded value.
-struct RecordHeader {
-  Duration instant{};        // since the start
-  std::uint32_t output = 0;  // index into Plan::outputs
-  std::uint32_t size = 0;    // bytes of the value that follows, padded to 8
-};
 
 class Recorder {
  public:
@@ -79,7 +74,8 @@ class Recorder {
   /// Appends what happened beside publications.
   [[gnu::cold]] void append_event(const RunEvent& event);
 
-  /// What is appended while the sinks are a whole ring behind is lost, rather than waited for, and all that follows.
+  /// What is appended while the sinks are a whole ring behind is lost, rather than waited for, and all that follows;
+  /// each learns what it lacks.
   void never_wait() { waits_ = false; }
   /// Hands on what was appended so far, if the sinks have all that was handed on before.
   void hand_on() {
@@ -106,7 +102,6 @@ class Recorder {
  private:
   static constexpr std::size_t chunk_bytes = std::size_t{256} << 10;
   static constexpr std::size_t chunks = 8;
-  static constexpr std::uint32_t event_output = 0xffffffff;  // stands for an event in place of an output
 
   [[gnu::cold]] void append_large(Duration instant, std::uint32_t output, const void* value, std::size_t size);
   void lose(Duration instant, std::uint32_t output, std::size_t size, const std::string& why);
@@ -133,6 +128,7 @@ class Recorder {
   std::vector<std::uint8_t> wanted_;  // per output
   std::vector<Value> deep_values_;    // per output: what the sinks see, empty for flat ones
   std::string lost_;                  // the first value, and why
+  LostValues lost_values_;            // that and all others
   struct Held {
     RecordHeader header;
     std::vector<std::byte> packed;

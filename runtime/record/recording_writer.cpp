@@ -107,6 +107,7 @@ void RecordingWriter::close(const LogEnd& end, std::string_view ended_by) {
 
 void RecordingWriter::finish(const LogEnd& end, std::string_view ended_by) {
   try {
+    publications_->end_unfinished(Duration(end.covered));
     recorder_->close();
     if (!ended_by.empty()) {
       const EndedBy ended{String(ended_by)};

@@ -20,6 +20,12 @@ struct RunEvent {
   std::string_view distributer{};  // of a mishap
 };
 
+/// What a sink wants and will never get.
+struct Loss {
+  Duration from{}, to{};     // instants of the first and the last
+  std::uint64_t values = 0;  // of all, how many
+};
+
 /// All is called on the recorder's thread, in the order in which it took place.
 class RecordSink {
  public:
@@ -29,6 +35,8 @@ class RecordSink {
   /// A publication, by the index of its output, or the true values of a vehicle.
   virtual void take(Duration instant, std::uint32_t output, const void* value) = 0;
   virtual void take_event(const RunEvent&) {}
+  /// After the last value, where the recorder has lost some.
+  virtual void take_loss(const Loss&) {}
   /// There is nothing more to take for now.
   virtual void pause() {}
   /// After the last value. Throws if anything was lost. A sink that has thrown, here or above, gets nothing more, nor

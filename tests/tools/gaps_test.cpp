@@ -56,11 +56,17 @@ connections: [count.out -> sum.in]
     CAPTURE(replay.output);
     CHECK(replay.exit_code == 0);
     CHECK(has(replay.output, "  same        as the run on the virtual clock, 17 values compared\n"));
+    CHECK(has(replay.output, note));
+    CHECK(has(command::run_jarol("log info " + file).output, note));
+    CHECK(command::json_report("log info " + file)["gaps"] ==
+          nlohmann::json::parse(R"([{"from_ns":300000000,"to_ns":500000000,"values":3}])"));
+    CHECK(command::json_report("log info " + whole)["gaps"].empty());
     const auto only = command::run_jarol("replay " + file + " --only sum");
     CHECK(only.exit_code == 2);
-    CHECK(only.output ==
-          "error: --only: the recording lacks published values that these tasks may have read, from 0.3 s on, as they "
-          "came faster than the disk took them; leave --only out\n");
+    CHECK(only.output == note +
+                             "error: --only: the recording lacks published values that these tasks may have read, from "
+                             "0.3 s on, as they "
+                             "came faster than the disk took them; leave --only out\n");
     CHECK(command::run_jarol("replay " + whole + " --only sum").exit_code == 0);
 
     const auto csv = command::run_jarol("log csv " + file);

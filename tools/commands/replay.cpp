@@ -17,6 +17,7 @@
 #include "graph/text/escape.h"
 #include "runtime/record/replayed_values.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/log/break_note.h"
 #include "tools/commands/log/recorded_graph.h"
 #include "tools/commands/run/apart.h"
 #include "tools/commands/run/crash_line.h"
@@ -119,6 +120,7 @@ RecordedWorld world_of(const ReplayOptions& options, Duration begin, const Recor
 
 int replay(const ReplayOptions& options) {
   RecordedRun log(options.log);
+  note_gaps(log.recording(), options.log);
   const Duration begin = replay_begin(options.from, log);
   const Overrides overrides = overrides_of(log.recording(), options.file, options.overrides);
   const RecordedWorld world = world_of(options, begin, log);

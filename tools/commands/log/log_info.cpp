@@ -59,6 +59,9 @@ nlohmann::ordered_json json_of(const Looked& run) {
   json["mishaps"] = nlohmann::ordered_json::array();
   for (const auto& mishap : read_mishaps(recording))
     json["mishaps"].push_back({{"distributer", mishap.distributer}, {"text", mishap.text}});
+  json["gaps"] = nlohmann::ordered_json::array();
+  for (const Gap& gap : read_gaps(recording))
+    json["gaps"].push_back({{"from_ns", gap.from}, {"to_ns", gap.to}, {"values", gap.values}});
   json["files"] = nlohmann::ordered_json::array();
   for (const RecordedFile& file : recording.files()) json["files"].push_back(file.path);
   json["topics"] = nlohmann::ordered_json::array();
@@ -74,6 +77,7 @@ int log_info(const LogOptions& options) {
   const Looked run = look_into(options.file);
   const Recording& recording = run.recording();
   note_rest(recording, options.file);
+  note_gaps(recording, options.file);
   if (options.json) {
     std::cout << json_line(json_of(run));
     return exit_good;
