@@ -1,10 +1,7 @@
 #include "distributers/campaign/run_all.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
+#include <thread>
 
 #include "runtime/machine/signal_stack.h"
 
@@ -42,19 +39,32 @@ std::vector<std::uint64_t> missing(const std::vector<std::uint64_t>& done, const
 
 void run_work(Graphs& graphs, const Campaign& campaign, const Draws& draws, Work& work, std::size_t workers,
               const Oversight& oversight) {
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, workers);
-  tbb::task_arena arena(static_cast<int>(workers));
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, workers, [&](std::size_t) {
+  std::mutex mutex;
+  std::exception_ptr failure;
+  std::atomic<bool> failed{false};
+  const auto fail = [&] {
+    const std::lock_guard lock(mutex);
+    if (!failure) failure = std::current_exception();
+    failed = true;
+  };
+  const auto do_work = [&] {
+    try {
       const SignalStack stack;  // a task may use up that of the thread
-      while (!oversight.stop.load(std::memory_order_relaxed)) {
+      while (!failed.load(std::memory_order_relaxed) && !oversight.stop.load(std::memory_order_relaxed)) {
         const std::optional<std::uint64_t> index = work.next();
         if (!index) return;
         if (const std::optional<Result> result = run_one(graphs, draws.at(*index), campaign.length, oversight))
           work.add(*result);
       }
-    });
-  });
+    } catch (...) { fail(); }
+  };
+  std::vector<std::thread> others;
+  try {
+    while (others.size() + 1 < workers) others.emplace_back(do_work);
+  } catch (...) { fail(); }
+  do_work();
+  for (std::thread& other : others) other.join();
+  if (failure) std::rethrow_exception(failure);
 }
 
 void run_all(Graphs& graphs, const Campaign& campaign, const Draws& draws, const std::vector<std::uint64_t>& indices,

@@ -1,6 +1,8 @@
 #include "distributers/campaign/run_one.h"
 
 #include <array>
+#include <new>
+#include <system_error>
 #include <utility>
 
 #include "distributers/campaign/running_run.h"
@@ -21,6 +23,14 @@ std::string text_of(const SpecError& error) {
   std::string text;
   for (const Problem& problem : error.problems()) text += (text.empty() ? "" : "; ") + problem.text;
   return text;
+}
+
+// It says nothing of the run, but of the machine at that moment.
+bool is_want_of_room(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return true;
+  const auto* const refused = dynamic_cast<const std::system_error*>(&error);
+  return refused != nullptr && (refused->code() == std::errc::resource_unavailable_try_again ||
+                                refused->code() == std::errc::not_enough_memory);
 }
 
 // What a campaign can't do with those channels; empty: it can run them.
@@ -100,15 +110,16 @@ class CampaignRun {
         if (oversight.stop.load(std::memory_order_relaxed)) return false;
         executor.run_until(std::min(end_, executor.now() + piece));
       }
-    } catch (const std::exception& error) { lose(result, error.what()); } catch (...) {
-      lose(result, "something was thrown that is no exception");
-    }
+    } catch (const std::exception& error) {
+      if (is_want_of_room(error)) throw;
+      lose(result, error.what());
+    } catch (...) { lose(result, "something was thrown that is no exception"); }
     return true;
   }
 
   void judge(Result& result) {
     run_.disconnect();
-    run_.sinks().close();
+    close_sinks();
     const Report& report = run_.executor().report();
     result.simulated = report.simulated;
     result.faults = report.fault_count;
@@ -129,6 +140,16 @@ class CampaignRun {
   }
 
  private:
+  // Where several have failed that says more than the text of all.
+  void close_sinks() {
+    try {
+      run_.sinks().close();
+    } catch (...) {
+      run_.sinks().rethrow_failure();
+      throw;
+    }
+  }
+
   void lose(Result& result, const std::string& text) {
     result.outcome = Outcome::lost;
     result.failures.push_back({"lost", text, "at " + seconds_text(run_.executor().now()) + " s: " + text});
@@ -189,6 +210,7 @@ std::optional<Result> run_one(Graphs& graphs, const Start& start, std::optional<
     result.outcome = Outcome::refused;
     result.why = text_of(error);
   } catch (const std::exception& error) {
+    if (is_want_of_room(error)) throw;
     result.outcome = Outcome::lost;
     result.why = error.what();
     result.failures = {{"lost", result.why, result.why}};

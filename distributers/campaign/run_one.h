@@ -18,7 +18,8 @@ struct UnreadFile : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// Whatever goes wrong in the run is its result. None: it was to stop before its end. Throws UnreadFile.
+/// Whatever goes wrong in the run is its result. None: it was to stop before its end. Throws UnreadFile, and
+/// std::bad_alloc or std::system_error where there is no memory or no thread for it, as there may be later.
 std::optional<Result> run_one(Graphs& graphs, const Start& start, std::optional<Duration> length,
                               const Oversight& oversight);
 

@@ -238,7 +238,8 @@ void add_campaign(CommandLine& line, int& exit_code) {
       "done stays in the results: the same command goes on where it ended.\n"
       "Percentiles are by nearest rank: each is the number of a run, the median the lower of two in the middle.\n"
       "Exit code: 0 all runs are good, 1 some are not, 2 bad input, or results of another campaign, 3 results can't\n"
-      "be written, 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM");
+      "be written, or there is no memory or thread for a run, 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C),\n"
+      "SIGTERM");
   command->add_option("FILE", options->file, "The graph, a YAML file; its key 'campaign' says what options add to")
       ->file({"yaml"})
       ->required();

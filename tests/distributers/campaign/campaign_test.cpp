@@ -15,6 +15,7 @@
 #include "graph/campaign/draws.h"
 #include "tasks/values/lauv.h"
 #include "tests/distributers/all_parts.h"
+#include "tests/refused_threads.h"
 
 namespace {
 using namespace jarol;
@@ -373,6 +374,24 @@ TEST_SUITE("distributers/campaign") {
                           "', which was not read before the first run; the results hold nothing of that run")
                              .c_str(),
                          UnreadFile);
+  }
+
+  TEST_CASE("of a run for which there was no thread there is no result; the campaign ends, and goes on later") {
+    if (!tests::RefusedThreads::possible) return;
+    const Folder folder;
+    Under under(source_of(waves), {.vary = {"seed=1..3"}}, 0, folder / "r");
+    {
+      const tests::RefusedThreads refused(0);
+      CHECK_THROWS_WITH_AS(under.run(1), "Resource temporarily unavailable", std::system_error);
+    }
+    CHECK(under.all().empty());
+    {
+      const tests::RefusedThreads refused(1);
+      CHECK_THROWS_AS(under.run(3), std::system_error);
+    }
+    under.run(1);
+    CHECK(under.all().size() == 3);
+    for (const Result& result : under.all()) CHECK(result.outcome == campaign::Outcome::good);
   }
 
   TEST_CASE("results that were removed meanwhile are missed") {
