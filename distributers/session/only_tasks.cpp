@@ -66,6 +66,18 @@ OnlyTasks::OnlyTasks(const Graph& graph, const std::vector<std::string>& tasks, 
   made_.channels.push_back(std::make_unique<PublishedSystem>(recording, recorded_.channels));
 }
 
+// Else the replay would say that it is the same, and nobody has compared it.
+void OnlyTasks::require_recorded(const std::string& output, const Type& type) const {
+  const ReadTopic* const topic = recording_.find(output);
+  const std::string which = "of '" + output + "', which these tasks publish, and they can't be compared; ";
+  if (topic == nullptr)
+    throw std::invalid_argument("--only: the recording has no values " + which +
+                                "record all that is published, jarol run --record, or leave the task out");
+  if (topic->schema != schema_of(type).text)
+    throw std::invalid_argument("--only: the recording has values of another type " + which +
+                                "replay the graph of the run, or leave the task out");
+}
+
 void OnlyTasks::keep_tasks(const Graph& graph, const std::vector<std::string>& names) {
   std::vector<std::string> known;
   for (const Task& task : graph.tasks) known.push_back(task.name);
@@ -78,8 +90,11 @@ void OnlyTasks::keep_tasks(const Graph& graph, const std::vector<std::string>& n
     if (std::find(names.begin(), names.end(), known[i]) == names.end()) continue;
     kept_[i] = made_.graph->tasks.size();
     made_.graph->tasks.push_back(graph.tasks[i]);
-    for (std::size_t f = 0; f < graph.tasks[i].task_class->out->fields.size(); ++f)
+    const std::vector<TypeField>& fields = graph.tasks[i].task_class->out->fields;
+    for (std::size_t f = 0; f < fields.size(); ++f) {
       outputs_.push_back(end_name(graph, {End::Kind::task, i, f}, true));
+      require_recorded(outputs_.back(), *fields[f].type);
+    }
   }
   for (const std::size_t i : graph.order)
     if (kept_[i] != none) made_.graph->order.push_back(kept_[i]);

@@ -14,8 +14,8 @@ namespace jarol {
 /// at each instant what the recording has of it then.
 class OnlyTasks {
  public:
-  /// Throws std::invalid_argument where a task is not in the graph, or the recording lacks what one of them reads. The
-  /// recording outlives it.
+  /// Throws std::invalid_argument where a task is not in the graph, or the recording lacks what one of them reads or
+  /// publishes, or has it with another type. The recording outlives it.
   OnlyTasks(const Graph& graph, const std::vector<std::string>& tasks, const Recording& recording);
 
   /// Once: it and this object outlive the run.
@@ -26,6 +26,7 @@ class OnlyTasks {
   const std::vector<std::string>& outputs() const { return outputs_; }
 
  private:
+  void require_recorded(const std::string& output, const Type& type) const;
   void keep_tasks(const Graph& graph, const std::vector<std::string>& names);
   void connect(const Graph& graph);
   void add_source(const Graph& graph, const End& from, const Type& type);

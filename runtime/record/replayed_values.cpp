@@ -18,9 +18,7 @@ ReplayedValues::ReplayedValues(const RecordedRun& run, const std::vector<Output>
     Lane lane{output.name, CdrEncoder(*output.type)};
     const bool asked = only == nullptr || std::find(only->begin(), only->end(), output.name) != only->end();
     const ReadTopic* const topic = asked ? run.recording().find(output.name) : nullptr;
-    if (topic != nullptr && topic->schema != schema_of(*output.type).text)
-      other_types_.push_back(output.name);
-    else if (topic != nullptr) {
+    if (topic != nullptr && topic->schema == schema_of(*output.type).text) {
       lane.layout.emplace(*topic);
       wanted[topic->channel.id] = true;
       lane_of_[topic->channel.id] = lanes_.size();

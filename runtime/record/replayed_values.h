@@ -21,8 +21,6 @@ class ReplayedValues : public RecordSink {
   /// False: the recording has nothing that could be compared.
   bool has_any() const { return has_any_; }
   const Differences& differences() const { return differences_; }
-  /// Names of outputs that the recording has with another type.
-  const std::vector<std::string>& other_types() const { return other_types_; }
 
   bool wants(std::uint32_t output) const override { return output < lanes_.size() && lanes_[output].layout; }
   void take(Duration instant, std::uint32_t output, const void* value) override;
@@ -48,7 +46,6 @@ class ReplayedValues : public RecordSink {
   std::optional<MessageCursor> recorded_;
   Duration end_{};  // the instants before it stand in the recording
   bool has_any_ = false;
-  std::vector<std::string> other_types_;
   Duration instant_{};
   std::vector<Published> published_;  // at that instant
   Differences differences_;
