@@ -79,6 +79,14 @@ ExternalSystem& Communicators::call(std::size_t distributer) {
   return *channels_[distributer];
 }
 
+template <class Do>
+void Communicators::attempt(Do act) {
+  if (lost_) return;
+  try {
+    act();
+  } catch (...) { lost_ = std::current_exception(); }
+}
+
 void Communicators::reach(Duration instant) {
   const MemoryScope outside(nullptr);
   if (resting() && !std::exchange(ending_known_, true))
@@ -109,7 +117,8 @@ void Communicators::hand_over(const CommunicatorAction& out, Duration instant) {
   const void* const safe = failsafe_.in_place_of_input(out.communicator, instant);
   copy_value(*communicator.type, out.value, safe != nullptr ? safe : out.input);
   const MemoryScope outside(nullptr);
-  if (communicator.distributer) call(*communicator.distributer).hand_over(communicator.channel, out.value);
+  if (communicator.distributer)
+    attempt([&] { call(*communicator.distributer).hand_over(communicator.channel, out.value); });
 }
 
 void Communicators::take(const CommunicatorAction& in, Duration instant) {
@@ -117,7 +126,8 @@ void Communicators::take(const CommunicatorAction& in, Duration instant) {
   if (!communicator.distributer) return;
   const MemoryScope outside(nullptr);
   const bool over = resting() && rest_->is_mission(*communicator.distributer);
-  bool fresh = !over && call(*communicator.distributer).take(communicator.channel, in.taken);
+  bool fresh = false;
+  if (!over) attempt([&] { fresh = call(*communicator.distributer).take(communicator.channel, in.taken); });
   if (fresh && !communicator.type->finite(in.taken)) {
     ++refused_;
     fresh = false;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -42,7 +43,7 @@ class Communicators {
 
     /// The run was closed: nothing of the instant takes place.
     bool closed() const { return closed_; }
-    /// Steps 2 and 3: communicators act, by name.
+    /// Steps 2 and 3: communicators act, by name. What an external system throws ends the run after the instant.
     void act(const Now& now) {
       if (uses_) all_.act(*this, now);
     }
@@ -52,6 +53,13 @@ class Communicators {
     Communicators& all_;
     bool uses_ = false, closed_ = false;
   };
+
+  /// After an instant: throws what an external system has thrown in it. Until then none is called any more, and the
+  /// instant is whole.
+  void require_none_lost() const {
+    if (lost_) [[unlikely]]
+      std::rethrow_exception(lost_);
+  }
 
   /// The vehicle may be brought to rest.
   bool may_rest() const { return rest_ != nullptr; }
@@ -89,6 +97,8 @@ class Communicators {
   void end(Turn& turn);
   void gather(const Now& now);
   ExternalSystem& call(std::size_t distributer);
+  template <class Do>
+  void attempt(Do act);
   void reach(Duration instant);
   void hand_over(const CommunicatorAction& out, Duration instant);
   void take(const CommunicatorAction& in, Duration instant);
@@ -108,6 +118,7 @@ class Communicators {
   enum class Use : std::uint32_t { free, covering, closed };
   std::atomic<Use> use_{Use::free};
   std::atomic<std::uint32_t> called_{0};  // the number of the distributer from 1, 0: none
+  std::exception_ptr lost_;               // what an external system has thrown
   std::unique_ptr<Rest> rest_;            // null: the run can't be brought to rest
   std::atomic<bool> resting_{false};
   Duration rest_begun_{};

@@ -96,6 +96,7 @@ void Executor::walk(Duration end) {
     report.instants += 1;
     report.simulated = instant;
     report.covered = instant + Duration(1);
+    communicators_.require_none_lost();
     if (has_stopped() || communicators_.has_come_to_rest(instant)) return;
   }
   run_.report.simulated = end;
