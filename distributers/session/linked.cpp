@@ -46,7 +46,7 @@ void Linked::finish() {
     if (const std::string failure = finish_one(*channels); !failure.empty()) note_(failure);
 }
 
-std::optional<std::size_t> Linked::finish_until(Futex::Time time) {
+std::optional<std::size_t> Linked::finish_until(Futex::Time time, std::vector<std::string>& unkept) {
   const auto finishing = std::make_shared<Finishing>(channels_);
   std::thread thread([finishing] {
     for (ExternalSystem* channels : finishing->channels) {
@@ -60,7 +60,7 @@ std::optional<std::size_t> Linked::finish_until(Futex::Time time) {
     if (!Futex::wait(finishing->finished, finished, time)) break;
   finished = finishing->finished.load(std::memory_order_acquire);
   for (std::size_t i = 0; i < finished; ++i)
-    if (const std::string& failure = finishing->failures[i]; !failure.empty()) note_(failure);
+    if (const std::string& failure = finishing->failures[i]; !failure.empty()) unkept.push_back(failure);
   if (finished < channels_.size()) {
     thread.detach();
     return finished;
@@ -77,7 +77,7 @@ std::vector<LinkReport> Linked::reports() const {
 }
 
 void finish_links(Linked& linked, const Graph& graph, RunEnd& end) {
-  const auto hangs = linked.finish_until(std::max(end.until, Futex::now() + finish_patience));
+  const auto hangs = linked.finish_until(std::max(end.until, Futex::now() + finish_patience), end.unkept);
   if (hangs) end.distributer = HangingDistributer{graph.distributers[*hangs].name};
 }
 

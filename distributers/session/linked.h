@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "distributers/session/note_sink.h"
@@ -26,8 +27,9 @@ class Linked {
   /// What can't be kept for the next run is noted, and the rest goes on.
   void finish();
   /// The same on another thread, which is waited for until then. The one that has not finished by then, by its number:
-  /// it runs on, and neither it nor those behind it may be used or destroyed any more.
-  std::optional<std::size_t> finish_until(Futex::Time time);
+  /// it runs on, and neither it nor those behind it may be used or destroyed any more. What can't be kept comes to
+  /// `unkept`.
+  std::optional<std::size_t> finish_until(Futex::Time time, std::vector<std::string>& unkept);
   std::vector<LinkReport> reports() const;
 
  private:

@@ -6,6 +6,7 @@
 #include <exception>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "runtime/execute/stuck_watch.h"
@@ -66,6 +67,7 @@ struct RunEnd {
   bool hangs = false;                   // threads still run, and the process can only end at once, without destructors
   std::vector<HangingTask> hanging;
   std::optional<HangingDistributer> distributer{};  // that hangs
+  std::vector<std::string> unkept{};                // what external systems could not keep for the next run, and why
   Futex::Time until{};                              // how long what is under way is waited for
 
   /// What hangs, if anything, runs a task.

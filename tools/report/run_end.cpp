@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/language/quantities.h"
+#include "graph/text/escape.h"
 #include "tools/report/exit_code.h"
 
 namespace jarol::tools {
@@ -45,6 +46,7 @@ std::string errors_of(const RunEnd& end, Duration now) {
       text += "error: at " + seconds_text(now) + " s: " + error.what() + "\n";
     } catch (...) { text += "error: at " + seconds_text(now) + " s: something was thrown that is no exception\n"; }
   }
+  for (const std::string& unkept : end.unkept) text += "error: " + printable(unkept) + "\n";
   for (const HangingTask& hanging : end.hanging) text += "error: " + to_text(hanging) + "\n";
   if (end.distributer) text += "error: " + to_text(*end.distributer) + "; the program ends without it\n";
   if (end.hangs && (!end.distributer || !end.hanging.empty()))
@@ -72,8 +74,8 @@ nlohmann::ordered_json to_json(const RunEnd& end) {
 
 int exit_code_of(const RunEnd& end) {
   const Ending::Cause cause = end.ending.cause;
-  const bool unfinished =
-      end.must_end_at_once() || end.failure || cause == Ending::Cause::fault || cause == Ending::Cause::hung;
+  const bool unfinished = end.must_end_at_once() || end.failure || !end.unkept.empty() ||
+                          cause == Ending::Cause::fault || cause == Ending::Cause::hung;
   return exit_of({unfinished ? exit_unfinished : exit_good, exit_of_signal(end.ending.signal)});
 }
 

@@ -5,6 +5,8 @@
 #include <csignal>
 #include <iterator>
 
+#include "tools/report/run_end.h"
+
 TEST_SUITE("tools/exit_code") {
   using namespace jarol::tools;
 
@@ -23,5 +25,13 @@ TEST_SUITE("tools/exit_code") {
         CHECK(exit_of({order[low], order[high]}) == order[high]);
       }
     CHECK(exit_of({0, 1, 130, 3}) == 3);
+  }
+
+  TEST_CASE("what could not be kept for the next run is an error, and the run is unfinished") {
+    jarol::RunEnd end;
+    CHECK(exit_code_of(end) == exit_good);
+    end.unkept = {"can't write the trim to 'trim.txt'"};
+    CHECK(exit_code_of(end) == exit_unfinished);
+    CHECK(errors_of(end, {}) == "error: can't write the trim to 'trim.txt'\n");
   }
 }
