@@ -56,6 +56,12 @@ class ExternalSystem {
   /// What was handed over last may not have gone out yet, until it has finished; any thread.
   virtual bool sends() const { return false; }
 
+  /// Of what was handed over, how much found no room or could not be sent so far. By the thread that hands over, or
+  /// after `finish`.
+  virtual std::uint64_t unsent() const { return 0; }
+  /// Something that was handed over has gone out.
+  virtual bool has_sent() const { return true; }
+
   /// What was carried until now, for channels that are on a link.
   virtual std::optional<LinkReport> link_report() const { return std::nullopt; }
 

@@ -56,6 +56,11 @@ class Link {
   /// Between `connect` and the time when all that was given to `send` has gone out; any thread.
   bool sends() const { return sends_; }
 
+  /// Packets that found no room in the port, or that the transport could not send. By the thread that sends, or once
+  /// it is disconnected.
+  std::uint64_t unsent() const { return refused_ + transport_->counts.unsent; }
+  bool has_sent() const { return packets_out_ > 0; }
+
   const Transport& transport() const { return *transport_; }
   LinkReport report() const;
 

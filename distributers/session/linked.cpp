@@ -85,10 +85,14 @@ std::vector<FailsafeReport> failsafe_after(const RunEnd& end, const Graph& graph
                                            const std::vector<ExternalSystem*>& channels,
                                            std::vector<FailsafeReport> reports) {
   for (FailsafeReport& report : reports) {
+    if (!report.at_end || !report.at_end->failure.empty()) continue;
     const std::size_t distributer = *graph.communicators[report.communicator].distributer;
+    const ExternalSystem& system = *channels[distributer];
     const bool hangs = end.distributer && end.distributer->distributer == graph.distributers[distributer].name;
-    if (hangs && report.at_end && report.at_end->failure.empty() && channels[distributer]->sends())
-      report.at_end->failure = busy_link_text;
+    if (hangs && system.sends()) report.at_end->failure = busy_link_text;
+    if (hangs || end.hangs || system.unsent() == report.at_end->unsent) continue;
+    report.at_end->is_alone = !system.has_sent();
+    report.at_end->failure = report.at_end->is_alone ? alone_text : unsent_text;
   }
   return reports;
 }

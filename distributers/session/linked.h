@@ -40,7 +40,7 @@ class Linked {
 /// Has them finish before the run's patience is over, or notes there which one hangs.
 void finish_links(Linked& linked, const Graph& graph, RunEnd& end);
 
-/// What is handed over at the end, but for what a link still sends that hangs.
+/// What is handed over at the end, but for what a link still sends that hangs, and for what it could not send.
 std::vector<FailsafeReport> failsafe_after(const RunEnd& end, const Graph& graph,
                                            const std::vector<ExternalSystem*>& channels,
                                            std::vector<FailsafeReport> reports);

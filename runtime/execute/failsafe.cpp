@@ -52,7 +52,8 @@ void Failsafe::at_end(std::span<const std::unique_ptr<ExternalSystem>> channels,
     const Communicator& out = graph_.communicators[report.communicator];
     ExternalSystem& to = *channels[*out.distributer];
     if (outliving && !to.outlives_run()) continue;
-    report.at_end = {.time = time, .failure = act(out, to)};
+    const std::uint64_t unsent = to.unsent();
+    report.at_end = {.time = time, .failure = act(out, to), .unsent = unsent};
   }
 }
 

@@ -25,8 +25,10 @@ struct FailsafeReport {
   Duration first{}, last{};    // instants of these, if any
   // as no command follows
   struct AtEnd {
-    Duration time{};      // since the start, by the run's clock
-    std::string failure;  // why it could not be handed over; empty: it was
+    Duration time{};           // since the start, by the run's clock
+    std::string failure;       // why it could not be handed over; empty: it was
+    std::uint64_t unsent = 0;  // of all that its external system was handed before
+    bool is_alone = false;     // the failure: nobody was ever there
   };
   std::optional<AtEnd> at_end{};
 
@@ -36,6 +38,10 @@ struct FailsafeReport {
 
 /// Why a link may not be given a safe value at the end.
 inline constexpr const char* busy_link_text = "the link has not done what it was given before";
+
+/// Why a safe value that a link was given has not gone out.
+inline constexpr const char* unsent_text = "the link had no room for it, or nobody to send it to any more";
+inline constexpr const char* alone_text = "the link had nobody to send it to all along";
 
 class Failsafe {
  public:

@@ -79,6 +79,20 @@ TEST_SUITE("tools/faulty_links") {
     }
   }
 
+  TEST_CASE("what is safe and a link could not send at the end was not handed over, and the exit code says so") {
+    const FaultyRun run = run_faulty("GoodDisplay", "send_fails", "500ms");
+    CAPTURE(run.errors);
+    CHECK(run.exit_code == 3);
+    CHECK(run.report["ending"]["cause"] == "over");
+    CHECK(run.lost() == "the link had no room for it, or nobody to send it to any more");
+  }
+
+  TEST_CASE("where a link never had anybody to send to the report says so") {
+    const FaultyRun run = run_faulty("GoodDisplay", "send_never", "300ms");
+    CAPTURE(run.errors);
+    CHECK(run.lost() == "the link had nobody to send it to all along");
+  }
+
   TEST_CASE("a link or a distributer that does not finish is left behind, by its name, within a second") {
     for (const auto& each : {std::pair{"GoodDisplay", "send_blocks"}, std::pair{"EndlessDisplay", "none"}}) {
       CAPTURE(each.first);

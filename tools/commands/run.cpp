@@ -259,8 +259,8 @@ int run(RunOptions options) {
   if (console) console->end(to_text(outcome) + failures_text(verdict));
   std::cerr << errors_of(run_end, executor.now()) << failures_text(verdict);
   if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";
-  const int exit_code =
-      exit_of({exit_code_of(run_end), exit_code_of(verdict), exit_code_of_lost(written, lost.empty())});
+  const int exit_code = exit_of(
+      {exit_code_of(run_end), exit_code_of(verdict), exit_code_of(failsafe), exit_code_of_lost(written, lost.empty())});
   if (run_end.must_end_at_once()) end_at_once(exit_code);
   return exit_code;
 }

@@ -30,6 +30,10 @@ class FaultyTransport : public links::Transport {
     if (woken == links::Interrupter::Woken::timed_out) throw std::runtime_error("the modem has reset itself");
   }
   bool send(std::span<const std::byte>) override {
+    if (fault_ == "send_never" || (fault_ == "send_fails" && sent_ >= 10)) {
+      ++counts.unsent;
+      return false;
+    }
     if (++sent_ < 10) return true;
     if (fault_ == "send_throws") throw std::runtime_error("no carrier");
     if (fault_ == "send_throws_int") throw 7;

@@ -12,6 +12,7 @@
 #include "distributers/session/real_time.h"
 #include "graph/language/quantities.h"
 #include "tools/report/command_line.h"
+#include "tools/report/exit_code.h"
 #include "tools/report/failure.h"
 #include "tools/report/value_json.h"
 
@@ -178,6 +179,13 @@ nlohmann::ordered_json to_json(const Graph& graph, const std::vector<FailsafeRep
     if (!safe.at_end->failure.empty()) json[out.name]["at_end_failure"] = safe.at_end->failure;
   }
   return json;
+}
+
+int exit_code_of(const std::vector<FailsafeReport>& failsafe) {
+  const bool lost = std::any_of(failsafe.begin(), failsafe.end(), [](const FailsafeReport& safe) {
+    return safe.at_end && !safe.at_end->failure.empty() && !safe.at_end->is_alone;
+  });
+  return lost ? exit_unfinished : exit_good;
 }
 
 std::string to_text(const LinkReport& link) {

@@ -51,6 +51,8 @@ nlohmann::ordered_json to_json(const Graph& graph, const RealClock& clock);
 /// When safe values were handed over, and why at the end; in the text only those that were.
 std::string to_text(const Graph& graph, const std::vector<FailsafeReport>& failsafe, const Ending& ending);
 nlohmann::ordered_json to_json(const Graph& graph, const std::vector<FailsafeReport>& failsafe);
+/// Of what could not be handed over at the end though somebody had been there.
+int exit_code_of(const std::vector<FailsafeReport>& failsafe);
 
 /// What a link has carried; in the text only what there was, and whether nobody was heard.
 std::string to_text(const LinkReport& link);

@@ -117,8 +117,8 @@ int run_on_threads(Loaded& loaded, Duration end, const RunOptions& run_options) 
   Interruptible::report([&] { print(run_options, outcome, {}, WhatIfs(std::vector<std::string>{}), false); });
   std::cerr << errors_of(run_end, core.now()) << failures_text(verdict);
   if (!unwatched.empty()) std::cerr << "error: " << unwatched << "\n";
-  const int exit_code =
-      exit_of({exit_code_of(run_end), exit_code_of(verdict), unwatched.empty() ? exit_good : exit_unfinished});
+  const int exit_code = exit_of({exit_code_of(run_end), exit_code_of(verdict), exit_code_of(failsafe),
+                                 unwatched.empty() ? exit_good : exit_unfinished});
   if (run_end.must_end_at_once()) end_at_once(exit_code);
   return exit_code;
 }

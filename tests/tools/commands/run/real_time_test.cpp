@@ -256,4 +256,15 @@ TEST_SUITE("tools/real_time") {
     CHECK(refusal("--cpus 0,0") == "error: --cpus: '0,0' names CPU 0 twice\n");
     CHECK(refusal("--workers 2") == "error: --workers belongs to the virtual clock; the real one goes by 'platform'\n");
   }
+
+  TEST_CASE("what is safe and did not go out makes a run unfinished, but where nobody was ever there") {
+    jarol::FailsafeReport safe;
+    CHECK(jarol::tools::exit_code_of({safe}) == 0);
+    safe.at_end = jarol::FailsafeReport::AtEnd{};
+    CHECK(jarol::tools::exit_code_of({safe}) == 0);
+    safe.at_end->failure = jarol::unsent_text;
+    CHECK(jarol::tools::exit_code_of({safe}) == 3);
+    safe.at_end->is_alone = true;
+    CHECK(jarol::tools::exit_code_of({safe}) == 0);
+  }
 }
