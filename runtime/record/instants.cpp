@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "graph/language/problems.h"
+#include "graph/language/quantities.h"
 
 namespace jarol {
 namespace {
@@ -19,8 +20,9 @@ bool is_of_inputs(const ReadTopic& topic) {
 }
 }  // namespace
 
-RecordedInstants::RecordedInstants(const Recording& recording, const std::vector<bool>& wanted, Duration from)
-    : recording_(recording) {
+RecordedInstants::RecordedInstants(const Recording& recording, const std::vector<bool>& wanted, Duration from,
+                                   std::size_t max_bytes)
+    : recording_(recording), max_bytes_(max_bytes) {
   cursors_.reserve(2);  // what a cursor shows lies in it
   for (const bool of_inputs : {true, false}) {
     std::vector<bool> some(channels);
@@ -40,10 +42,16 @@ bool RecordedInstants::next() {
     instant_ = any ? std::min(instant_, instant) : instant;
     any = true;
   }
+  std::size_t bytes = 0;
   for (MessageCursor& cursor : cursors_)
     for (const mcap::Message* m = cursor.message(); m != nullptr && Duration(m->time) <= instant_;
-         cursor.next(), m = cursor.message())
+         cursor.next(), m = cursor.message()) {
+      bytes += sizeof(Message) + m->data.size();
+      if (bytes > max_bytes_)
+        fail_in_chunk(cursor.spot(), "an instant, " + seconds_text(instant_) + " s, of more than " +
+                                         std::to_string(max_bytes_) + " bytes");
       messages_.push_back({&recording_.topics().at(m->channel), std::string(m->data)});
+    }
   std::stable_sort(messages_.begin(), messages_.end(),
                    [](const Message& a, const Message& b) { return a.topic->channel.topic < b.topic->channel.topic; });
   return any;

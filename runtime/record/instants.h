@@ -15,10 +15,12 @@ class RecordedInstants {
     std::string data;
   };
 
-  /// The recording outlives it. By channel which topics; instants before `from` are left out.
-  RecordedInstants(const Recording& recording, const std::vector<bool>& wanted, Duration from = {});
+  /// The recording outlives it. By channel which topics; instants before `from` are left out. `max_bytes`: of the
+  /// messages of one instant.
+  RecordedInstants(const Recording& recording, const std::vector<bool>& wanted, Duration from = {},
+                   std::size_t max_bytes = std::size_t{2} << 30);
 
-  /// False: there are no more.
+  /// False: there are no more. Throws LogError where an instant has more than it may.
   bool next();
   Duration instant() const { return instant_; }
   /// Of that instant, in bytewise order of topics; of one that comes twice as it was recorded.
@@ -26,6 +28,7 @@ class RecordedInstants {
 
  private:
   const Recording& recording_;
+  const std::size_t max_bytes_;
   std::vector<MessageCursor> cursors_;  // one for each of the streams that chunks are made of
   Duration instant_{};
   std::vector<Message> messages_;

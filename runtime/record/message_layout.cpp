@@ -96,7 +96,7 @@ void MessageLayout::parse(const std::string& schema) {
       field.form = count.empty() ? Field::Form::sequence : Field::Form::array;
       if (!count.empty()) std::from_chars(count.data(), count.data() + count.size(), field.count);
       constexpr std::uint32_t max = 1U << 20;
-      if (field.count > max) fail("it has an array of " + count);
+      if (!count.empty() && (field.count == 0 || field.count > max)) fail("it has an array of " + count);
       type.resize(bracket);
     }
     const auto kind = std::find(std::begin(kind_names), std::end(kind_names), type);
@@ -111,6 +111,9 @@ void MessageLayout::parse(const std::string& schema) {
     if (at == numbers.end()) fail("it lacks the definition of '" + o.type + "'");
     definitions_[o.definition].fields[o.field].definition = at->second;
   }
+  // of nothing there could be any number in no bytes
+  for (const Definition& definition : definitions_)
+    if (definition.fields.empty()) fail("one of its definitions has no fields");
   // a definition within itself would have no end
   std::vector<int> state(definitions_.size());  // 1: being looked at, 2: done
   const auto look = [&](const auto& self, std::size_t at, int depth) -> void {
@@ -125,27 +128,33 @@ void MessageLayout::parse(const std::string& schema) {
 }
 
 void MessageLayout::add_columns(const Definition& definition, const std::string& path) {
-  constexpr std::size_t max = 1U << 20;
   const auto within = [](const std::string& at, const std::string& name) {
     return at.empty() ? name : at + "." + name;
   };
   for (const Field& field : definition.fields) {
-    if (columns_.size() > max) fail("it has more than " + std::to_string(max) + " fields");
     const std::string at = definition.wraps ? path : within(path, field.name);
     const auto add_one = [&](const std::string& one) {
       if (field.definition >= 0)
         add_columns(definitions_[static_cast<std::size_t>(field.definition)], one);
       else
-        columns_.push_back({one, field.unit, field.kind, false});
+        add_column({one, field.unit, field.kind, false});
     };
     switch (field.form) {
       case Field::Form::one: add_one(at); break;
-      case Field::Form::sequence: columns_.push_back({at, field.unit, field.kind, true}); break;
+      case Field::Form::sequence: add_column({at, field.unit, field.kind, true}); break;
       case Field::Form::array:
         for (std::uint32_t i = 0; i < field.count; ++i) add_one(within(at, std::to_string(i)));
         break;
     }
   }
+}
+
+void MessageLayout::add_column(MessageColumn column) {
+  constexpr std::size_t max = 1U << 20, max_bytes = 1U << 26;
+  name_bytes_ += column.path.size() + column.unit.size();
+  if (columns_.size() == max) fail("it has more than " + std::to_string(max) + " fields");
+  if (name_bytes_ > max_bytes) fail("the names of its fields are longer than " + std::to_string(max_bytes) + " bytes");
+  columns_.push_back(std::move(column));
 }
 
 std::vector<MessageCell> MessageLayout::read(std::string_view bytes) const {

@@ -52,11 +52,13 @@ class MessageLayout {
 
   void parse(const std::string& schema);
   void add_columns(const Definition& definition, const std::string& path);
+  void add_column(MessageColumn column);
   void read_fields(const Definition& definition, Cursor& in, std::vector<MessageCell>& cells) const;
   std::string text_of(const Field& field, Cursor& in, std::uint32_t count) const;
 
   std::vector<Definition> definitions_;
   std::vector<MessageColumn> columns_;
+  std::size_t name_bytes_ = 0;  // of the columns
 };
 
 /// The shortest text that reads back exactly; truth values and enumerators as numbers.

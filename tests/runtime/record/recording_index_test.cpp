@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "runtime/execute/log_end.h"
+#include "runtime/record/instants.h"
 #include "runtime/record/message_cursor.h"
 #include "runtime/record/recording_writer.h"
 #include "tests/runtime/trace_of.h"
@@ -79,6 +80,30 @@ TEST_SUITE("runtime/recording_index") {
     CHECK(by_index.is_whole());
     CHECK(by_index.chunks().size() > 2);
     CHECK(text_of(by_index) == text_of(Recording(file.path(), nobody)));
+  }
+
+  TEST_CASE("an instant of more bytes than a run has is refused") {
+    const IndexedFile file;
+    record(file.path());
+    const Recording recording(file.path());
+    const std::vector<bool> published = published_channels(recording);
+    RecordedInstants enough(recording, published, {}, 2 * (sizeof(RecordedInstants::Message) + 12));
+    while (enough.next()) CHECK(enough.messages().size() <= 2);
+    RecordedInstants too_few(recording, published, {}, sizeof(RecordedInstants::Message) + 12);
+    const std::uint16_t channel = recording.find("a.out")->channel.id;
+    const auto first = std::find_if(recording.chunks().begin(), recording.chunks().end(), [&](const ReadPlace& chunk) {
+      return chunk.min_channel <= channel && channel <= chunk.max_channel;
+    });
+    const auto read_all = [&] {
+      while (too_few.next()) {}
+    };
+    CHECK_THROWS_WITH_AS(
+        read_all(),
+        ("'" + file.path() + "' has in the chunk at byte " + std::to_string(first->offset) +
+         " an instant, 0.001 s, of more than " + std::to_string(sizeof(RecordedInstants::Message) + 12) +
+         " bytes; it is no recording that jarol run has written")
+            .c_str(),
+        LogError);
   }
 
   TEST_CASE("an instant is found by the index, and only the chunks that have it are read") {
