@@ -67,12 +67,17 @@ void Link::connect() {
   ending_ = false;
   receiving_.failed = sending_.failed = false;
   sends_ = true;
-  receiver_ = std::thread([this] { run(receiving_, [this] { transport_->receive(interrupter_, translator_); }); });
-  sender_ = std::thread([this] {
-    run(sending_, [this] { run_sender(); });
-    sends_ = false;
-  });
   connected_ = true;
+  try {
+    receiver_ = std::thread([this] { run(receiving_, [this] { transport_->receive(interrupter_, translator_); }); });
+    sender_ = std::thread([this] {
+      run(sending_, [this] { run_sender(); });
+      sends_ = false;
+    });
+  } catch (...) {
+    disconnect();
+    throw;
+  }
 }
 
 template <class Work>
@@ -97,9 +102,11 @@ void Link::disconnect() {
   if (!connected_) return;
   ending_ = true;
   send_signal_.interrupt();
-  sender_.join();
+  // one that could not be had has nothing to send
+  if (sender_.joinable()) sender_.join();
+  sends_ = false;
   interrupter_.interrupt();
-  receiver_.join();
+  if (receiver_.joinable()) receiver_.join();
   transport_->close();
   if (announcer_) announcer_->close();
   connected_ = false;

@@ -22,7 +22,7 @@ class Link {
   ~Link();
 
   /// Begins to receive and to send; nothing if it has begun. Throws std::runtime_error if a port or line is not to be
-  /// had.
+  /// had, or no thread.
   void connect();
   /// Sends what is pending and ends; nothing if it has ended.
   void disconnect();

@@ -33,11 +33,18 @@ std::uint64_t await_change(const std::atomic<std::uint64_t>& word, std::uint64_t
 
 Workers::Workers(std::size_t count, std::size_t parts) : claims_(parts), others_(count - 1) {
   // each begins at a place of its own, so that neighbouring parts go to one
-  for (std::size_t i = 1; i < count; ++i)
-    threads_.emplace_back([this, i, count, parts] { work(i * parts / count, others_[i - 1]); });
+  try {
+    for (std::size_t i = 1; i < count; ++i)
+      threads_.emplace_back([this, i, count, parts] { work(i * parts / count, others_[i - 1]); });
+  } catch (...) {
+    end();
+    throw;
+  }
 }
 
-Workers::~Workers() {
+Workers::~Workers() { end(); }
+
+void Workers::end() {
   round_.fetch_or(ended, std::memory_order_release);
   round_.notify_all();
   for (std::thread& thread : threads_) thread.join();

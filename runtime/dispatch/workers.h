@@ -18,7 +18,8 @@ class Workers {
  public:
   using Job = void (*)(void* context, std::size_t part);
 
-  /// `count` workers, of which the caller of `run` is one, at least 1; they share `parts` parts.
+  /// `count` workers, of which the caller of `run` is one, at least 1; they share `parts` parts. Throws
+  /// std::system_error where there is no thread to be had.
   Workers(std::size_t count, std::size_t parts);
   ~Workers();
   Workers(const Workers&) = delete;
@@ -39,6 +40,7 @@ class Workers {
     std::atomic<std::uint64_t> round{0};  // the newest one in which somebody took the part
   };
 
+  void end();
   void work(std::size_t first, std::atomic<const RunningTask*>& running);
   void take_parts(std::size_t first, std::uint64_t round);
 

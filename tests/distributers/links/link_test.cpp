@@ -4,8 +4,11 @@
 #include <doctest/doctest.h>
 
 #include <stdexcept>
+#include <system_error>
 
+#include "tests/distributers/links/open_link.h"
 #include "tests/distributers/links/pairs.h"
+#include "tests/refused_threads.h"
 
 namespace {
 using namespace jarol;
@@ -114,6 +117,21 @@ TEST_SUITE("distributers/links/link") {
     CHECK(thrown_by([&] { sends->receive(ids); }) == sending);
     sends->disconnect();
     CHECK_FALSE(sends->sends());
+  }
+
+  TEST_CASE("a link that gets no thread, or only one, is closed again and can be connected later") {
+    for (const int granted : {0, 1}) {
+      if (!RefusedThreads::possible) return;
+      const auto link = make(listening<UdpTransport>(std::chrono::hours(1)));
+      {
+        const RefusedThreads refused(granted);
+        CHECK_THROWS_AS(link->connect(), std::system_error);
+      }
+      CHECK_FALSE(link->sends());
+      link->connect();
+      CHECK(link->sends());
+      link->disconnect();
+    }
   }
 
   TEST_CASE("packets arrive both ways, in order and whole: UDP") { check_carries_all(udp("127.0.0.1")); }

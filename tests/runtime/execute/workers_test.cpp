@@ -4,8 +4,11 @@
 
 #include <array>
 #include <chrono>
+#include <system_error>
 #include <utility>
 #include <vector>
+
+#include "tests/refused_threads.h"
 
 namespace {
 using namespace jarol;
@@ -22,6 +25,12 @@ void add_round(void* context, std::size_t part) {
 }  // namespace
 
 TEST_SUITE("runtime/workers") {
+  TEST_CASE("where the second thread can't be had the first ends, and the error is the caller's") {
+    if (!tests::RefusedThreads::possible) return;
+    const tests::RefusedThreads refused(1);
+    CHECK_THROWS_AS(Workers(3, 3), std::system_error);
+  }
+
   TEST_CASE("each part is done once in every round, and seen by the caller, with any number of workers") {
     for (const auto& pair : std::vector<std::pair<std::size_t, std::size_t>>{{1, 1}, {2, 2}, {3, 8}, {8, 8}}) {
       const std::size_t count = pair.first, parts = pair.second;
