@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <tuple>
+#include <utility>
 
 #include "graph/language/quantities.h"
 #include "graph/text/escape.h"
@@ -31,7 +33,14 @@ void LoggedTexts::take(Duration instant, std::uint32_t index, const void* value)
   if (text == output.last) return;
   output.last = text;
   if (text.empty()) return;
-  if (++output.count <= max_kept) kept_.push_back({instant, output.name, output.last});
+  if (++output.count > max_kept) return;
+  // workers publish the outputs of one instant in any order
+  const auto is_before = [](const Logged& a, const Logged& b) {
+    return std::tie(a.instant, a.output) < std::tie(b.instant, b.output);
+  };
+  Logged logged{instant, output.name, output.last};
+  const auto at = std::upper_bound(kept_.begin(), kept_.end(), logged, is_before);
+  kept_.insert(at, std::move(logged));
 }
 
 void LoggedTexts::serialize(Archive& archive) {

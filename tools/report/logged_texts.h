@@ -50,7 +50,7 @@ class LoggedTexts : public RecordSink {
   const Output* find(std::uint32_t index) const;
 
   std::vector<Output> outputs_;  // by index
-  std::vector<Logged> kept_;     // in the order in which they were published
+  std::vector<Logged> kept_;     // by instant, those of one by output
   mutable std::mutex mutex_;     // of a run that has not ended, too, there is a report
 };
 

@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/graph/graph_of.h"
 #include "tests/tools/run_command.h"
+#include "tools/report/logged_texts.h"
 
 namespace {
 std::string graph_in(const command::TemporaryFolder& folder) {
@@ -20,6 +22,15 @@ std::string lines_with(const std::string& word, const std::string& text) {
     if (line.find(word) != std::string::npos) found += line + "\n";
   return found;
 }
+
+struct Speaks {
+  static constexpr std::string_view summary = "says something";
+  struct Out {
+    jarol::String said{};
+    static constexpr auto fields() { return jarol::describe(jarol::field<&Out::said>()); }
+  };
+  static void run(const jarol::Tick&, Out&) {}
+};
 }  // namespace
 
 TEST_SUITE("tools/report/logged_texts") {
@@ -46,6 +57,27 @@ TEST_SUITE("tools/report/logged_texts") {
     const std::string logged = lines_with("logged", done.output);
     CHECK(std::count(logged.begin(), logged.end(), '\n') == 101);
     CHECK(logged.ends_with("\n  logged      t.log: and 94 texts more\n"));
+  }
+
+  TEST_CASE("texts of one instant are shown in the order of their outputs, whatever task came first") {
+    jarol::Registry registry;
+    registry.add(jarol::task_class<Speaks>());
+    const jarol::Graph graph = jarol::tests::graph_of(
+        registry, "graph: t\ntasks: {a: {type: Speaks, period: 1ms}, b: {type: Speaks, period: 1ms}}\n");
+    jarol::tools::LoggedTexts texts(graph);
+    const auto say = [&](int instant, std::uint32_t output, const char* text) {
+      const jarol::String said{std::string_view(text)};
+      texts.take(std::chrono::milliseconds(instant), output, &said);
+    };
+    say(1, 1, "one");
+    say(1, 0, "two");
+    say(2, 0, "three");
+    say(2, 1, "four");
+    CHECK(texts.to_text() ==
+          "  logged      a.said at 0.001 s: two\n"
+          "  logged      b.said at 0.001 s: one\n"
+          "  logged      a.said at 0.002 s: three\n"
+          "  logged      b.said at 0.002 s: four\n");
   }
 
   TEST_CASE("a replay and a run on threads show what tasks log, too") {
