@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -24,6 +25,13 @@ using LargeMemory = std::unique_ptr<std::byte, GiveBackLarge>;
 /// The same, owned. What stands there is not known.
 inline LargeMemory make_large(std::size_t bytes, std::size_t alignment = alignof(std::max_align_t)) {
   return {static_cast<std::byte*>(take_large(bytes, alignment)), {bytes, alignment}};
+}
+
+/// The same, of zeros, and given by the system now and not when it is first written to.
+inline LargeMemory make_large_zeros(std::size_t bytes, std::size_t alignment = alignof(std::max_align_t)) {
+  LargeMemory memory = make_large(bytes, alignment);
+  std::memset(memory.get(), 0, bytes);
+  return memory;
 }
 
 template <class T>

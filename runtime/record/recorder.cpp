@@ -30,9 +30,8 @@ Recorder::Recorder(std::vector<RecordSink*> sinks, Duration hand_on_period)
     : sinks_(std::move(sinks)),
       taking_(sinks_),
       hand_on_period_(hand_on_period),
-      memory_(make_large(chunk_bytes * chunks)),
+      memory_(make_large_zeros(chunk_bytes * chunks)),
       now_(memory_.get()) {
-  std::memset(memory_.get(), 0, chunk_bytes * chunks);  // so that the system has given it before tasks run
   thread_ = std::thread([this] { run(); });
 }
 

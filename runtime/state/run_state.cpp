@@ -15,8 +15,7 @@ RunState::RunState(const Plan& of, std::span<const expect::Signal> tapped)
       recent_faults(of.graph.tasks.size()),
       releases(of.groups.size()),
       tapped_(tapped),
-      arena_(make_large(of.layout.size, of.layout.spacing == Spacing::pages ? Layout::page : Layout::line)) {
-  std::memset(arena_.get(), 0, of.layout.size);
+      arena_(make_large_zeros(of.layout.size, of.layout.spacing == Spacing::pages ? Layout::page : Layout::line)) {
   first_states_.reserve(of.graph.tasks.size());
   for (std::size_t i = 0; i < of.graph.tasks.size(); ++i) make_task(i);
   for (std::size_t i = 0; i < of.graph.communicators.size(); ++i) make_communicator(i);

@@ -27,7 +27,8 @@ void note(const Session& session, Reached& reached) {
   reached.depth = std::max(reached.depth, session.true_value("depth of dune"));
   reached.altitude = std::min(reached.altitude, session.true_value("altitude of dune"));
   reached.pitch = std::max(reached.pitch, std::abs(session.true_value("pitch of dune")));
-  if (reached.alarm == tasks::Alarm::none) reached.alarm = session.value<tasks::Condition>("supervisor.condition").alarm;
+  if (reached.alarm == tasks::Alarm::none)
+    reached.alarm = session.value<tasks::Condition>("supervisor.condition").alarm;
 }
 
 // A channel of the operator's is given that value, for that time.
@@ -36,8 +37,8 @@ Reached sail(const std::string& profile, std::vector<std::string> set, const cha
              Duration time) {
   set.emplace_back("distributers.dune.link.parameters.dynamics=rigid");
   set.emplace_back("expect=nothing");
-  auto session = jarol::open("specs/exolauv.yaml",
-                             {.profile = profile, .set = std::move(set), .seed = 3, .fed = {"neptus"}});
+  auto session =
+      jarol::open("specs/exolauv.yaml", {.profile = profile, .set = std::move(set), .seed = 3, .fed = {"neptus"}});
   session.run_for(2s);
   session.feed(channel, value);
   Reached reached;
@@ -96,8 +97,8 @@ TEST_SUITE("tools/lauv_limits") {
           for (const double floor : {4.0, 9.0}) {
             const bool by_depth = leg.vertical == Vertical::depth;
             if (by_depth && floor < 9) continue;
-            const auto reached =
-                sail(profile, by_depth ? std::vector<std::string>{} : std::vector{floor_at(floor)}, "neptus.leg", leg, 90s);
+            const auto reached = sail(profile, by_depth ? std::vector<std::string>{} : std::vector{floor_at(floor)},
+                                      "neptus.leg", leg, 90s);
             CHECK(reached.alarm == tasks::Alarm::none);
             CHECK(reached.depth > (by_depth ? speed < 1 ? 1.0 : 11.0 : 1.0));
           }

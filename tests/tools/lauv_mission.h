@@ -57,8 +57,10 @@ class Mission {
     feed<&distributers::LauvOperator::In::leg>("neptus.leg", leg_);
     session_.feed("neptus.contact", console.contact());
     session_.run_for(100ms);
-    adapter.hand_over<&distributers::LauvOperator::Out::report>(session_.value<tasks::VehicleReport>("report.report"), console.to);
-    adapter.hand_over<&distributers::LauvOperator::Out::motion>(session_.value<tasks::Motion>("navigation.motion"), console.to);
+    adapter.hand_over<&distributers::LauvOperator::Out::report>(session_.value<tasks::VehicleReport>("report.report"),
+                                                                console.to);
+    adapter.hand_over<&distributers::LauvOperator::Out::motion>(session_.value<tasks::Motion>("navigation.motion"),
+                                                                console.to);
     adapter.hand_over<&distributers::LauvOperator::Out::progress>(progress(), console.to);
   }
   template <auto Channel, class T>

@@ -248,11 +248,7 @@ TEST_SUITE("tasks/lauv_guidance") {
       Vehicle v;
       v.in.leg = {.number = 1, .course = course, .radius = 10, .duration = 10, .level = 3, .surge = 1};
       const auto stay = [&](double x, int steps) {
-        for (; steps > 0; --steps) {
-          v.in.motion.x = x;
-          v.in.motion.y = 0;
-          v.step();
-        }
+        for (; steps > 0; v.step(), --steps) v.in.motion.x = x, v.in.motion.y = 0;
       };
       stay(9, 40);
       stay(24.9, 60);
