@@ -1,7 +1,10 @@
 #include "distributers/campaign/run_all.h"
 
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
-#include <thread>
 
 #include "runtime/machine/signal_stack.h"
 
@@ -58,12 +61,9 @@ void run_work(Graphs& graphs, const Campaign& campaign, const Draws& draws, Work
       }
     } catch (...) { fail(); }
   };
-  std::vector<std::thread> others;
-  try {
-    while (others.size() + 1 < workers) others.emplace_back(do_work);
-  } catch (...) { fail(); }
-  do_work();
-  for (std::thread& other : others) other.join();
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, workers);
+  tbb::task_arena arena(static_cast<int>(workers));
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, workers, [&](std::size_t) { do_work(); }); });
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -64,8 +64,7 @@ class OwnWork : public Work {
 };
 
 /// Does all of it on so many threads, the caller's among them; returns when there is no more, or soon after a stop.
-/// Throws the first that a run has thrown, or std::system_error where there are no such threads; no run is begun after
-/// that.
+/// Throws the first that a run has thrown; no run is begun after that.
 void run_work(Graphs& graphs, const Campaign& campaign, const Draws& draws, Work& work, std::size_t workers,
               const Oversight& oversight);
 

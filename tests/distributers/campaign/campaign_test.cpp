@@ -385,10 +385,6 @@ TEST_SUITE("distributers/campaign") {
       CHECK_THROWS_WITH_AS(under.run(1), "Resource temporarily unavailable", std::system_error);
     }
     CHECK(under.all().empty());
-    {
-      const tests::RefusedThreads refused(1);
-      CHECK_THROWS_AS(under.run(3), std::system_error);
-    }
     under.run(1);
     CHECK(under.all().size() == 3);
     for (const Result& result : under.all()) CHECK(result.outcome == campaign::Outcome::good);
