@@ -8,7 +8,7 @@ namespace {
 using command::has;
 using command::TemporaryFolder;
 
-std::string graph_with(const std::string& type) {
+std::string graph_by_type(const std::string& type) {
   return "graph: g\ntiming: {period: 10ms}\ntasks:\n  a: {type: Counter, wcet: 10us}\n  b: {type: " + type +
          ", wcet: 10us}\n  c: {type: Relay, wcet: 10us}\nconnections: [a.out -> b.in, a.out -> c.in]\n";
 }
@@ -17,8 +17,8 @@ std::string graph_with(const std::string& type) {
 TEST_SUITE("tools/replay_only") {
   TEST_CASE("of an output that the recording has with another type tasks by themselves are not replayed") {
     const TemporaryFolder folder;
-    const std::string file = folder / "r.mcap", other = folder.write("other.yaml", graph_with("Window"));
-    const std::string graph = folder.write("g.yaml", graph_with("Relay"));
+    const std::string file = folder / "r.mcap", other = folder.write("other.yaml", graph_by_type("Window"));
+    const std::string graph = folder.write("g.yaml", graph_by_type("Relay"));
     REQUIRE(command::run_jarol("run " + graph + " --for 1s --record " + file).exit_code == 0);
     for (const std::string tasks : {"b", "b c"}) {
       const auto replay = command::run_jarol("replay " + file + " " + other + " --only " + tasks);
@@ -33,7 +33,7 @@ TEST_SUITE("tools/replay_only") {
 
   TEST_CASE("of an output that is not in the recording tasks by themselves are not replayed") {
     const TemporaryFolder folder;
-    const std::string file = folder / "r.mcap", graph = folder.write("g.yaml", graph_with("Relay"));
+    const std::string file = folder / "r.mcap", graph = folder.write("g.yaml", graph_by_type("Relay"));
     REQUIRE(command::run_jarol("run " + graph + " --for 1s --record-what a.out,b.out --record " + file).exit_code == 0);
     const auto replay = command::run_jarol("replay " + file + " --only b c");
     CHECK(replay.exit_code == 2);
