@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::int64_t no_time = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t end_of_time = std::int64_t{1} << 62;
+constexpr std::uint64_t max_meanwhile = 20'000;  // activations that a run waits for the end of those before
 
 struct Arrival {
   std::int64_t time;
@@ -46,7 +47,7 @@ class CoreSimulator {
   bool run_until(std::int64_t end) {
     while (now_ < end) {
       arrive();
-      if (result_.activations > rules_.max_activations) return give_up();
+      if (result_.activations > rules_.max_activations || meanwhile_ > max_meanwhile) return give_up();
       if (open_ == 0 && next_arrival() >= rules_.last) return true;
       if (ready_.empty()) {
         now_ = std::min(end, next_arrival());
@@ -109,7 +110,7 @@ class CoreSimulator {
       ready_.push({urgency, a.task, a.activation, a.time, m.wcet});
       arrivals_.push({a.time + m.period, a.task, a.activation + 1});
       ++result_.activations;
-      if (a.time < rules_.last) ++open_;
+      ++(a.time < rules_.last ? open_ : meanwhile_);
     }
   }
 
@@ -139,7 +140,8 @@ class CoreSimulator {
   std::int64_t now_ = 0;
   MinFirst<Arrival> arrivals_;
   MinFirst<Ready> ready_;
-  std::uint64_t open_ = 0;  // that arrived before the last instant and have not ended
+  std::uint64_t open_ = 0;       // that arrived before the last instant and have not ended
+  std::uint64_t meanwhile_ = 0;  // that arrived from then on
   Simulation result_;
 };
 

@@ -41,8 +41,9 @@ struct Simulation {
   std::vector<Slice> slices;            // the last ones before the late activation ended
 };
 
-/// Until all that was released before `until` has ended, what is released meanwhile with it; or up to the first late
-/// activation, or so many. Of these one may be late that has not ended by then. Ties: the task that stands first.
+/// Until all that was released before `until` has ended, what is released meanwhile with it, up to 20,000; or up to the
+/// first late activation, or so many. Of these one may be late that has not ended by then. Ties: the task that stands
+/// first.
 Simulation simulate(std::span<const TaskModel> models, Order order, bool preemptive, std::int64_t until,
                     std::uint64_t max_activations = 2'000'000);
 

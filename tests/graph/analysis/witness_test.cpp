@@ -45,7 +45,7 @@ TEST_SUITE("graph/analysis/witness") {
   TEST_CASE("a late activation that never ends is late at the end of the run") {
     std::string full = starved;
     full.replace(full.find("9ms"), 3, "10ms");
-    CHECK(late_of("fixed_priority", full) == Late{"lp", 0, 0, 9'090'900 * ms, 100 * ms, false});
+    CHECK(late_of("fixed_priority", full) == Late{"lp", 0, 0, 182'010 * ms, 100 * ms, false});
   }
 
   TEST_CASE("what takes ten years is late before the time of an analysis is over") {
