@@ -105,7 +105,7 @@ class Simulator {
     };
     for (std::size_t i = 0; i < ready_.size() && !rules_.preemptive; ++i)
       if (ready_[i].started) take(i);
-    for (std::size_t i = 0; i < ready_.size(); ++i)
+    for (std::size_t i = 0; i < ready_.size() && running_.size() < cores_; ++i)
       if (!waits(ready_[i])) take(i);
     std::sort(running_.begin(), running_.end());
   }

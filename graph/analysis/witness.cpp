@@ -9,7 +9,7 @@ namespace {
 
 // Readers that would go before what they follow wait for it.
 GlobalSimulation run_with_readers(const CoreTasks& tasks, const Policy& policy) {
-  constexpr std::uint64_t max_activations = 100'000;
+  constexpr std::uint64_t max_activations = 2'000;  // each looks at all that have not ended
   std::vector<std::pair<std::size_t, std::size_t>> follows = tasks.follows;
   follows.insert(follows.end(), tasks.upward.begin(), tasks.upward.end());
   TaskModels models = tasks.models;
