@@ -27,6 +27,8 @@ std::string text_of(const SpecError& error) {
 
 // It says nothing of the run, but of the machine at that moment.
 bool is_want_of_room(const std::exception& error) {
+  // what has no size that there is has none on any machine
+  if (dynamic_cast<const std::bad_array_new_length*>(&error) != nullptr) return false;
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return true;
   const auto* const refused = dynamic_cast<const std::system_error*>(&error);
   return refused != nullptr && (refused->code() == std::errc::resource_unavailable_try_again ||

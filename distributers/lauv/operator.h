@@ -200,7 +200,8 @@ class LauvOperator {
   // of the hand that steers
   std::optional<Duration> hand_heard_;  // its last RemoteActions
   double heading_axis_ = 0, thrust_axis_ = 0;
-  int button_ = 0;      // 1: accelerate, -1: decelerate
+  int button_ = 0;  // 1: accelerate, -1: decelerate
+  bool button_refused_ = false;
   bool let_go_ = true;  // since an abort: it counts again after a silence
 
   bool ending_ = false;

@@ -1,5 +1,6 @@
 // The operator's hand: RemoteActions of a stick, as in Neptus.
 #include <algorithm>
+#include <utility>
 
 #include "distributers/lauv/messages.h"
 #include "distributers/lauv/operator.h"
@@ -38,7 +39,8 @@ void LauvOperator::remote_actions(const imc::RemoteActions& message) {
     setpoint.thrust = std::clamp(thrust_axis_ / axis_end, -1.0, 1.0) * parameters_.full_thrust;
     stop_astern();
   }
-  button_ = (actions.is_set("Accelerate") ? 1 : 0) - (actions.is_set("Decelerate") ? 1 : 0);
+  const int button = (actions.is_set("Accelerate") ? 1 : 0) - (actions.is_set("Decelerate") ? 1 : 0);
+  if (std::exchange(button_, button) != button) button_refused_ = false;
   if (actions.is_set("Stop")) setpoint.thrust = 0;
 }
 
@@ -56,7 +58,10 @@ void LauvOperator::steer_by_hand(Duration instant) {
   if (button_ != 0) {
     const double change = button_ * parameters_.button_rate * seconds(instant - now_);
     double& thrust = in.setpoint.renew().thrust;
-    thrust = std::clamp(thrust + change, may_go_astern() ? -parameters_.full_thrust : 0, parameters_.full_thrust);
+    thrust = std::clamp(thrust + change, -parameters_.full_thrust, parameters_.full_thrust);
+    // once for as long as it is held
+    if (thrust < 0 && !may_go_astern() && std::exchange(button_refused_, true)) thrust = 0;
+    stop_astern();
   }
   const bool rests = in.setpoint->thrust == 0 && in.setpoint->rate == 0;
   if (rests || !hand_heard_ || seconds(instant - *hand_heard_) < parameters_.silence) return;

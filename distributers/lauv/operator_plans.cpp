@@ -172,12 +172,13 @@ void LauvOperator::note_progress(const tasks::Progress& progress, messages::Rece
 
 void LauvOperator::reference(const imc::Reference& reference, const From& from) {
   const auto* header = static_cast<const imc::Header*>(from.header);
+  const std::uint16_t source = header == nullptr ? 0xffff : header->src;
+  const std::uint8_t entity = header == nullptr ? 0xff : header->src_ent;
+  const ReferenceFollower* const follower = plan_.follower();
   try {
-    if (plan_.follower() != nullptr && !has_altimeter() && needs_altitude(reference))
+    if (follower != nullptr && follower->obeys(source, entity) && !has_altimeter() && needs_altitude(reference))
       throw std::invalid_argument(std::string(no_altimeter));
-    if (plan_.follow(reference, header == nullptr ? 0xffff : header->src, header == nullptr ? 0xff : header->src_ent,
-                     now_, origin_, motion_))
-      follow_plan();
+    if (plan_.follow(reference, source, entity, now_, origin_, motion_)) follow_plan();
   } catch (const std::invalid_argument& error) { refuse(std::string("a reference is left out: ") + error.what()); }
 }
 

@@ -49,11 +49,14 @@ ReferenceFollower::ReferenceFollower(const Maneuver& maneuver, Duration now, con
       heard_(now),
       leg_{.course = Course::rest, .surge = usual_speed} {}
 
+bool ReferenceFollower::obeys(std::uint16_t source, std::uint8_t entity) const {
+  return (source_ == any_system || source_ == source) && (entity_ == any_entity || entity_ == entity);
+}
+
 bool ReferenceFollower::take(const imc::Reference& reference, std::uint16_t source, std::uint8_t entity, Duration now,
                              const Origin& origin, const tasks::Motion& motion) {
   using Flags = imc::Reference::Flags;
-  const bool may = (source_ == any_system || source_ == source) && (entity_ == any_entity || entity_ == entity);
-  if (!may) return false;
+  if (!obeys(source, entity)) return false;
   tasks::Leg leg = leg_;
   if ((reference.flags & Flags::LOCATION) != 0) {
     set_place(leg, reference.lat, reference.lon, origin);

@@ -17,6 +17,8 @@ class ReferenceFollower {
  public:
   ReferenceFollower(const Maneuver& maneuver, Duration now, const FlightLimits& limits = {});
 
+  /// Is it steered by that system and entity?
+  bool obeys(std::uint16_t source, std::uint8_t entity) const;
   /// Takes a reference; what it leaves out is as before, and the place at first that of the vehicle. At speed 0 the
   /// propeller is off. False: who sent it may not. Throws std::invalid_argument for what can't be commanded, and
   /// nothing of it counts.

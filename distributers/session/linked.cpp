@@ -84,13 +84,17 @@ void finish_links(Linked& linked, const Graph& graph, RunEnd& end) {
 std::vector<FailsafeReport> failsafe_after(const RunEnd& end, const Graph& graph,
                                            const std::vector<ExternalSystem*>& channels,
                                            std::vector<FailsafeReport> reports) {
+  const auto hangs = [&](const Distributer& d) { return end.distributer && end.distributer->distributer == d.name; };
+  const auto first_left = static_cast<std::size_t>(
+      std::find_if(graph.distributers.begin(), graph.distributers.end(), hangs) - graph.distributers.begin());
   for (FailsafeReport& report : reports) {
     if (!report.at_end || !report.at_end->failure.empty()) continue;
     const std::size_t distributer = *graph.communicators[report.communicator].distributer;
     const ExternalSystem& system = *channels[distributer];
-    const bool hangs = end.distributer && end.distributer->distributer == graph.distributers[distributer].name;
-    if (hangs && system.sends()) report.at_end->failure = busy_link_text;
-    if (hangs || end.hangs || system.unsent() == report.at_end->unsent) continue;
+    // one that hangs and those behind it may still be at work
+    const bool is_left = distributer >= first_left;
+    if (is_left && system.sends()) report.at_end->failure = busy_link_text;
+    if (is_left || end.hangs || system.unsent() == report.at_end->unsent) continue;
     report.at_end->is_alone = !system.has_sent();
     report.at_end->failure = report.at_end->is_alone ? alone_text : unsent_text;
   }

@@ -73,6 +73,7 @@ CheckFindings find_against(const Graph& graph) {
   CheckFindings found;
   const auto add = [&](const std::string& text) { found.against += (found.against.empty() ? "" : ", and ") + text; };
   if (result.verdict == analysis::Verdict::not_schedulable) add("is not schedulable: " + result.reason);
+  if (result.verdict == analysis::Verdict::unknown) found.unknown = result.reason;
   // the real clock keeps the offsets
   std::optional<Graph> given;
   if (graph.platform.phasing != Phasing::given) given.emplace(graph).platform.phasing = Phasing::given;
@@ -80,9 +81,13 @@ CheckFindings find_against(const Graph& graph) {
   for (const Chain& chain : graph.chains) {
     const auto latency = analysis::latency_of(given ? *given : graph, chain.path, budget);
     const auto broken = analysis::broken_limits(chain, latency);
-    if (!broken.empty()) add("breaks a limit of chain '" + chain.name + "': " + list_of(broken));
+    if (broken.empty()) continue;
+    if (latency.exact)
+      add("breaks a limit of chain '" + chain.name + "': " + list_of(broken));
+    else
+      found.unknown += (found.unknown.empty() ? "chain '" : "; chain '") + chain.name +
+                       "' may break a limit, by upper bounds: " + list_of(broken);
   }
-  if (result.verdict == analysis::Verdict::unknown) found.unknown = result.reason;
   return found;
 }
 

@@ -22,7 +22,8 @@ struct Result {
   // why not
   std::optional<std::size_t> core_at_fault;
   std::optional<DeadlineMiss> late;
-  std::vector<Slice> slices;  // on that core, before that
+  std::vector<Slice> slices;     // on that core, before that
+  std::int64_t slices_from = 0;  // ns; of what ran later none is missing there
   std::optional<Demand> demand;
 };
 

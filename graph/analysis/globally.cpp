@@ -43,6 +43,7 @@ void refuse(Result& result, const GlobalSimulation& run, Evidence evidence) {
   result.verdict = Verdict::not_schedulable;
   result.late = run.late;
   result.slices = run.slices;
+  result.slices_from = run.slices_from;
 }
 
 // Runs that are possible: a late activation in one is a "no"; without jitter and with offsets that hold there is one
@@ -99,7 +100,12 @@ Result check_globally(const System& system, bool whole, Budget& budget) {
   if (system.cores == 1) return check_partitioned(with_edf(system), whole, budget);
   const TaskModels models = with_blocking_in_wcet(system.models);
   Result result;
-  result.response = within(budget, max_steps_to_bound, [&](Budget& own) { return bounds_of(system, models, own); });
+  bool given_up = false;
+  result.response = within(budget, max_steps_to_bound, [&](Budget& own) {
+    auto bounds = bounds_of(system, models, own);
+    given_up = own.spent();
+    return bounds;
+  });
   result.core.resize(models.size());
   const bool bounded =
       std::all_of(result.response.begin(), result.response.end(), [](const auto& r) { return r.has_value(); });
@@ -115,7 +121,8 @@ Result check_globally(const System& system, bool whole, Budget& budget) {
                             : "the densities fit the cores (Goossens, Funk, Baruah)";
     return result;
   } else {
-    result.reason = "the tests of global_edf are sufficient only, and none of them holds";
+    result.reason = given_up ? "bounds of the responses under global_edf were not found with the effort that is made"
+                             : "the tests of global_edf are sufficient only, and none of them holds";
   }
   // each bound takes for granted that the other tasks end in time
   result.response.assign(models.size(), std::nullopt);

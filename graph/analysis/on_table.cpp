@@ -47,6 +47,7 @@ Result check_on_table(const System& system, bool whole, Budget& budget) {
   if (result.verdict != Verdict::schedulable) result.late = table.late;
   if (table.late) {
     result.core_at_fault = partition.core[table.late->task];
+    result.slices_from = table.slices_from;
     for (const Slice& s : table.slices)
       if (partition.core[s.task] == *result.core_at_fault) result.slices.push_back(s);
   }

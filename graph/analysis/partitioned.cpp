@@ -182,6 +182,7 @@ Result run_with_waits(const System& system, const std::vector<std::size_t>& core
     result.reason = "a task is late when every task takes its 'wcet'";
     result.late = run.late;
     result.core_at_fault = core[run.late->task];
+    result.slices_from = run.slices_from;
     for (const Slice& s : run.slices)
       if (core[s.task] == *result.core_at_fault) result.slices.push_back(s);
     return result;

@@ -118,6 +118,8 @@ class Simulator {
       return;
     }
     if (slices.size() >= 2 * max_slices_of_cores) {
+      for (std::size_t i = 0; i < max_slices_of_cores; ++i)
+        result_.slices_from = std::max(result_.slices_from, slices[i].end);
       slices.erase(slices.begin(), slices.begin() + max_slices_of_cores);
       dropped_ += max_slices_of_cores;
     }

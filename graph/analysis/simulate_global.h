@@ -12,6 +12,7 @@ struct GlobalSimulation {
   std::optional<DeadlineMiss> late;
   std::vector<std::int64_t> responses;  // per task, the longest of those that ended
   std::vector<Slice> slices;            // the last ones before the late activation ended
+  std::int64_t slices_from = 0;         // ns; of what ran later none is missing there
 };
 
 /// What runs where and before what; global EDF without any.

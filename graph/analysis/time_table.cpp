@@ -10,6 +10,13 @@
 namespace jarol::analysis {
 namespace {
 
+// What ran from `from` on is still there.
+void drop_first(std::vector<Slice>& slices, std::size_t n, std::int64_t& from) {
+  const auto end = slices.begin() + static_cast<std::ptrdiff_t>(n);
+  for (auto s = slices.begin(); s != end; ++s) from = std::max(from, s->end);
+  slices.erase(slices.begin(), end);
+}
+
 constexpr std::size_t max_validated = 50'000;
 constexpr std::uint64_t steps_of_walked = 10, max_after_late = 200'000;
 
@@ -78,6 +85,7 @@ class TableWalk {
   std::vector<std::int64_t> responses;
   std::vector<Slice> slices;  // all, as far as they are to be validated
   std::vector<Slice> recent;  // those after
+  std::int64_t slices_from = 0;
 
  private:
   void run_next() {
@@ -94,7 +102,7 @@ class TableWalk {
     arrived_[job.task] = job.arrival;
     responses[job.task] = std::max(responses[job.task], finish - job.arrival);
     if (!late) (slices.size() < max_validated ? slices : recent).push_back({job.task, job.activation, start, finish});
-    if (recent.size() >= 2 * max_slices) recent.erase(recent.begin(), recent.begin() + max_slices);
+    if (recent.size() >= 2 * max_slices) drop_first(recent, max_slices, slices_from);
     if (finish > job.arrival + model.deadline && !late)
       late = DeadlineMiss{job.task, job.activation, job.arrival, finish, job.arrival + model.deadline};
     job.arrival += model.period;
@@ -170,8 +178,9 @@ CoreResult walk(const System& system, const std::vector<std::size_t>& core, std:
     // the last ones report why
     result.slices = std::move(table.slices);
     result.slices.insert(result.slices.end(), table.recent.begin(), table.recent.end());
+    result.slices_from = table.slices_from;
     if (result.slices.size() > max_slices)
-      result.slices.erase(result.slices.begin(), result.slices.end() - static_cast<std::ptrdiff_t>(max_slices));
+      drop_first(result.slices, result.slices.size() - max_slices, result.slices_from);
     return result;
   }
   if (!repeats) return result;

@@ -60,7 +60,7 @@ struct Publish {
   ShortRange<Publication> publications;
 };
 
-/// One task of a group, run at its release. What of one with a LET is read lies in one cache line.
+/// One task of a group, run at its release. What runs its body lies in one cache line.
 struct alignas(64) Activation {
   Thunk run = nullptr;
   Body body = nullptr;  // instead, for a task whose outputs are checked at the end of its LET; else null

@@ -227,6 +227,13 @@ TEST_SUITE("distributers/lauv/operator_places") {
     c.pass(50ms);
     CHECK(c.to.last<imc::LogBookEntry>().text ==
           "a reference is left out: the vehicle has no altimeter: no altitude can be kept");
+    // those of a system that does not steer it are nothing to it
+    follow.control_src = 0x4444;
+    CHECK(c.start_of(follow) == "");
+    const std::size_t lines = c.to.all<imc::LogBookEntry>().size();
+    c.say(reference);
+    c.pass(50ms);
+    CHECK(c.to.all<imc::LogBookEntry>().size() == lines);
     m.z_units = imc::ZUnits::DEPTH;
     CHECK(c.start_of(m) == "");
     c.report(with_altitude(9, 1, 2));

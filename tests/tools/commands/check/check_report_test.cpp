@@ -229,6 +229,33 @@ tasks:
     CHECK(command::content(file + ".svg").find(">released ") == std::string::npos);
   }
 
+  TEST_CASE("what was not kept, as other cores were busy, is no time of waiting") {
+    const TemporaryFolder folder;
+    const std::string table = folder.write("t.yaml", R"(graph: t
+platform: {cores: 2}
+tasks:
+  b: {type: Counter, period: 2s, let: 2s, wcet: 900ms, core: 0}
+  l: {type: Counter, period: 2s, offset: 500ms, let: 500ms, wcet: 200ms, core: 0}
+  x: {type: Counter, period: 1ms, let: 1ms, wcet: 500us, core: 1}
+)"),
+                      by_priority = folder.write("p.yaml", R"(graph: t
+platform: {policy: fixed_priority, cores: 4}
+tasks:
+  p: {type: Counter, period: 1s, wcet: 300ms, core: 1}
+  h: {type: Counter, period: 10ms, wcet: 5ms, core: 0, deadline: 10ms}
+  l: {type: Relay, period: 1s, wcet: 450ms, core: 0}
+  x: {type: Counter, period: 1ms, wcet: 500us, core: 2}
+  y: {type: Counter, period: 1ms, wcet: 500us, core: 3}
+connections: [p.out -> l.in]
+)");
+    CHECK(
+        run_jarol("check " + table).output.find("\n  from release to end 600ms, of which the last 200ms: l 200ms\n") !=
+        std::string::npos);
+    CHECK(run_jarol("check " + by_priority)
+              .output.find("\n  from release to end 1.2s, of which the last 275ms: h 135ms + l 140ms\n") !=
+          std::string::npos);
+  }
+
   TEST_CASE("what a late task of a table waits for on another core is named, and blocking is no running") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", R"(graph: t

@@ -177,6 +177,22 @@ TEST_SUITE("tools/real_time") {
     CHECK(command::run_jarol("run " + one + " --for 40ms --set chains.c.reaction=80ms").exit_code == 0);
   }
 
+  TEST_CASE("a chain's limit that only an upper bound breaks is not known to break, and the run begins") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("t.yaml", R"(graph: t
+tasks:
+  a: {type: Counter, period: 1ms, let: 1ms, wcet: 1us}
+  b: {type: Relay, period: 3000.0001s, let: 1ms, wcet: 1us}
+connections: [a.out -> b.in]
+chains:
+  c: {path: [a, b], reaction: 3000s}
+)");
+    const auto run = command::run_jarol("run " + file + " --clock real --for 20ms");
+    CHECK(run.exit_code == 0);
+    CHECK(run.output.find("chain 'c' may break a limit, by upper bounds: reaction 3000.0031s over 3000s\n") !=
+          std::string::npos);
+  }
+
   TEST_CASE("a vehicle that never answers was not there: the run is not brought to an end, and says so") {
     const std::string udp =
         "--set 'distributers.dune.link={type: udp, peer: \"127.0.0.1:9\"}' --for 200ms --clock real";
