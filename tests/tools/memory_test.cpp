@@ -5,14 +5,6 @@
 
 #include "tests/tools/run_command.h"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define JAROL_SANITIZED
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(undefined_behavior_sanitizer)
-#define JAROL_SANITIZED
-#endif
-#endif
-
 namespace {
 // With so many KiB of address space.
 command::Result within(int size, const std::string& arguments) {
