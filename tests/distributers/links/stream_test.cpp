@@ -123,8 +123,10 @@ TEST_SUITE("distributers/links/stream") {
       // who has not spoken yet gives way to who has
       const auto one = server.dial();
       REQUIRE(wait_for([&] { return server.peers() == 1 && silent.peers() == 1; }));
-      say(*one);
-      REQUIRE(wait_for([&] { return count_of(*server.link, "packets in") == 1; }));
+      REQUIRE(wait_for([&] {
+        say(*one);
+        return count_of(*server.link, "packets in") > 0;
+      }));
       const auto other = server.dial();
       Clock::duration longest{};
       auto before = Clock::now();
