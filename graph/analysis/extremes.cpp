@@ -92,6 +92,7 @@ class Walker {
     }
     if (!budget_.spend(loads_.size() * 4 + 10)) return false;
     std::vector<Slice> slices;
+    result_.slices_from = result_.late ? result_.slices_from : 0;
     std::int64_t now = start + blocking;
     while (now < end || open > 0) {
       while (arrivals.top().first <= now) {
@@ -119,13 +120,14 @@ class Walker {
     return true;
   }
 
-  static void add(std::vector<Slice>& slices, const Slice& slice) {
+  void add(std::vector<Slice>& slices, const Slice& slice) {
     if (!slices.empty() && slices.back().task == slice.task && slices.back().activation == slice.activation &&
         slices.back().end == slice.begin) {
       slices.back().end = slice.end;
       return;
     }
-    if (slices.size() >= 2 * max_slices) slices.erase(slices.begin(), slices.begin() + max_slices);
+    if (result_.late) return;
+    if (slices.size() >= 2 * max_slices) drop_first(slices, max_slices, result_.slices_from);
     slices.push_back(slice);
   }
 

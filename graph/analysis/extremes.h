@@ -12,6 +12,7 @@ struct Extremes {
   std::optional<DeadlineMiss> late;
   std::vector<std::int64_t> responses;  // per model, the longest
   std::vector<Slice> slices;            // before the late activation ended
+  std::int64_t slices_from = 0;         // ns; of what ran later none is missing there
 };
 
 /// What an activation waits for lies within a busy period, which begins at some instant t with a release. It is longest

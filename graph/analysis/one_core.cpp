@@ -27,12 +27,13 @@ CoreResult undecided(std::string reason, std::vector<std::optional<std::int64_t>
 }
 
 template <class T>
-CoreResult late_one(const T& run, Evidence evidence, std::vector<Slice> slices) {
+CoreResult late_one(const T& run, Evidence evidence, std::vector<Slice> slices, std::int64_t slices_from = 0) {
   CoreResult result = undecided("a task is late when every task takes its 'wcet'");
   result.verdict = Verdict::not_schedulable;
   result.evidence = evidence;
   result.late = run.late;
   result.slices = std::move(slices);
+  result.slices_from = slices_from;
   return result;
 }
 
@@ -152,7 +153,7 @@ std::int64_t end_of_witness(std::span<const TaskModel> models, const std::option
 template <class T>
 CoreResult result_of_walk(T walk, bool exact) {
   if (walk.late) {
-    CoreResult late = late_one(walk, Evidence::proof, std::move(walk.slices));
+    CoreResult late = late_one(walk, Evidence::proof, std::move(walk.slices), walk.slices_from);
     late.exact = exact;
     if (exact) late.responses = optional(walk.responses);
     return late;
@@ -193,7 +194,7 @@ CoreResult walk_nonpreemptive(const CoreTasks& tasks, const Policy& policy, Budg
     if (has_jitter(inheriting_loads(tasks)) || !tasks.upward.empty()) return late;
     if (const auto end = end_of_repetition(tasks.models)) {
       Simulation run = simulate(tasks.models, order_of(policy), false, *end, max_simulated);
-      if (run.late) return late_one(run, Evidence::proof, std::move(run.slices));
+      if (run.late) return late_one(run, Evidence::proof, std::move(run.slices), run.slices_from);
     }
     return late;
   }
@@ -202,7 +203,8 @@ CoreResult walk_nonpreemptive(const CoreTasks& tasks, const Policy& policy, Budg
     if (!end || !tasks.upward.empty()) return undecided("");
     Simulation run = simulate(tasks.models, order_of(policy), false, *end, max_simulated);
     budget.spend(run.activations * steps_of_simulated);
-    if (run.late && !has_jitter(inheriting_loads(tasks))) return late_one(run, Evidence::by_run, std::move(run.slices));
+    if (run.late && !has_jitter(inheriting_loads(tasks)))
+      return late_one(run, Evidence::by_run, std::move(run.slices), run.slices_from);
     return undecided("");
   }
   return on_time("every activation ends by its deadline in every order that is possible (schedule-abstraction graph)",
@@ -309,7 +311,7 @@ CoreResult check_core(const CoreTasks& tasks, const Policy& policy, bool offsets
         "a task has a higher priority than one that it follows at the same instant; give the producer "
         "the higher one");
   if (detail == Detail::whole && result.verdict == Verdict::not_schedulable && !result.late)
-    add_witness(tasks, policy, end_of_witness(tasks.models, result.demand), result);
+    add_witness(tasks, order_of(policy), policy.interrupts, end_of_witness(tasks.models, result.demand), result);
   result.responses.resize(tasks.models.size());
   // of readers that go first nothing is said here but what they add
   result.exact = result.exact && tasks.upward.empty();

@@ -24,7 +24,7 @@ struct CoreResult {
   std::optional<Demand> demand;                        // why not, under EDF
   std::optional<DeadlineMiss> late;                    // why not
   std::vector<Slice> slices;                           // before that
-  std::int64_t slices_from = 0;                        // ns; of what ran later none is missing there, in a table
+  std::int64_t slices_from = 0;                        // ns; of what ran later none is missing there
   bool exact = false;                                  // each response is reached
 };
 

@@ -144,6 +144,7 @@ class Cores {
       core.late->task = tasks[core.late->task];
       result.late = core.late;
     }
+    result.slices_from = core.slices_from;
     for (Slice s : core.slices) {
       s.task = tasks[s.task];
       result.slices.push_back(s);

@@ -116,7 +116,7 @@ class CoreSimulator {
 
   void add_slice(const Ready& running, std::int64_t stop) {
     std::vector<Slice>& slices = result_.slices;
-    if (slices.size() >= 2 * max_slices) slices.erase(slices.begin(), slices.begin() + max_slices);
+    if (slices.size() >= 2 * max_slices) drop_first(slices, max_slices, result_.slices_from);
     if (!slices.empty() && slices.back().task == running.task && slices.back().activation == running.activation &&
         slices.back().end == now_) {
       slices.back().end = stop;
@@ -146,6 +146,12 @@ class CoreSimulator {
 };
 
 }  // namespace
+
+void drop_first(std::vector<Slice>& slices, std::size_t n, std::int64_t& from) {
+  const auto end = slices.begin() + static_cast<std::ptrdiff_t>(n);
+  for (auto s = slices.begin(); s != end; ++s) from = std::max(from, s->end);
+  slices.erase(slices.begin(), end);
+}
 
 Simulation simulate(std::span<const TaskModel> models, Order order, bool preemptive, std::int64_t until,
                     std::uint64_t max_activations) {

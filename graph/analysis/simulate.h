@@ -33,12 +33,16 @@ using MinFirst = std::priority_queue<T, std::vector<T>, std::greater<>>;
 
 inline constexpr std::size_t max_slices = 200;  // before what is late
 
+/// Drops so many of the first; of what ran from `from` on none is missing afterwards.
+void drop_first(std::vector<Slice>& slices, std::size_t n, std::int64_t& from);
+
 struct Simulation {
   bool whole = true;  // reached its end
   std::uint64_t activations = 0;
   std::optional<DeadlineMiss> late;
   std::vector<std::int64_t> responses;  // per task, the longest of those that ended
   std::vector<Slice> slices;            // the last ones before the late activation ended
+  std::int64_t slices_from = 0;         // ns; of what ran later none is missing there
 };
 
 /// Until all that was released before `until` has ended, what is released meanwhile with it, up to 20,000; or up to the

@@ -118,9 +118,7 @@ class Simulator {
       return;
     }
     if (slices.size() >= 2 * max_slices_of_cores) {
-      for (std::size_t i = 0; i < max_slices_of_cores; ++i)
-        result_.slices_from = std::max(result_.slices_from, slices[i].end);
-      slices.erase(slices.begin(), slices.begin() + max_slices_of_cores);
+      drop_first(slices, max_slices_of_cores, result_.slices_from);
       dropped_ += max_slices_of_cores;
     }
     slices.push_back({job.task, job.activation, now_, until});

@@ -10,13 +10,6 @@
 namespace jarol::analysis {
 namespace {
 
-// What ran from `from` on is still there.
-void drop_first(std::vector<Slice>& slices, std::size_t n, std::int64_t& from) {
-  const auto end = slices.begin() + static_cast<std::ptrdiff_t>(n);
-  for (auto s = slices.begin(); s != end; ++s) from = std::max(from, s->end);
-  slices.erase(slices.begin(), end);
-}
-
 constexpr std::size_t max_validated = 50'000;
 constexpr std::uint64_t steps_of_walked = 10, max_after_late = 200'000;
 

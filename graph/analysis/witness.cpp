@@ -8,33 +8,32 @@ namespace jarol::analysis {
 namespace {
 
 // Readers that would go before what they follow wait for it.
-GlobalSimulation run_with_readers(const CoreTasks& tasks, const Policy& policy) {
+GlobalSimulation run_with_readers(const CoreTasks& tasks, Order order, bool preemptive) {
   constexpr std::uint64_t max_activations = 2'000;  // each looks at all that have not ended
   std::vector<std::pair<std::size_t, std::size_t>> follows = tasks.follows;
   follows.insert(follows.end(), tasks.upward.begin(), tasks.upward.end());
   TaskModels models = tasks.models;
   for (TaskModel& m : models) m.jitter = 0;
   const std::vector<std::size_t> core(models.size(), 0);
-  const RunRules rules{.follows = follows,
-                       .core = core,
-                       .by_order = policy.urgency != Urgency::deadline,
-                       .preemptive = policy.interrupts};
+  const RunRules rules{
+      .follows = follows, .core = core, .by_order = order == Order::by_priority, .preemptive = preemptive};
   return simulate_global(models, 1, max_activations, rules);
 }
 
 template <class T>
 void take_late(T run, CoreResult& result) {
   result.late = run.late;
-  if (run.late) result.slices = std::move(run.slices);
+  if (!run.late) return;
+  result.slices = std::move(run.slices);
+  result.slices_from = run.slices_from;
 }
 
 }  // namespace
 
-void add_witness(const CoreTasks& tasks, const Policy& policy, std::int64_t until, CoreResult& result) {
+void add_witness(const CoreTasks& tasks, Order order, bool preemptive, std::int64_t until, CoreResult& result) {
   constexpr std::uint64_t max_activations = 1'000'000;
-  if (!tasks.upward.empty()) return take_late(run_with_readers(tasks, policy), result);
-  const Order order = policy.urgency == Urgency::deadline ? Order::by_deadline : Order::by_priority;
-  take_late(simulate(tasks.models, order, policy.interrupts, until, max_activations), result);
+  if (!tasks.upward.empty()) return take_late(run_with_readers(tasks, order, preemptive), result);
+  take_late(simulate(tasks.models, order, preemptive, until, max_activations), result);
 }
 
 }  // namespace jarol::analysis

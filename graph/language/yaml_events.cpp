@@ -107,9 +107,10 @@ void YamlEvents::refuse_unreadable() {
     refuse(at(places_.of_byte(byte)), "not valid YAML: " + std::string(parser.problem) + ": 0x" +
                                           fmt::format("{:02x}", std::max(parser.problem_value, 0)));
   // what should have followed another byte is found behind it
-  if (std::string_view(parser.problem).find("trailing") != std::string_view::npos) do
-      --byte;
+  if (std::string_view(parser.problem).find("trailing") != std::string_view::npos) {
+    do --byte;
     while ((byte_at(byte) & 0xc0) == 0x80);
+  }
   refuse(at(places_.of_byte(byte)), "not valid YAML: no UTF-8 from here on: 0x" + fmt::format("{:02x}", byte_at(byte)));
 }
 

@@ -34,6 +34,7 @@ inline LargeMemory make_large_zeros(std::size_t bytes, std::size_t alignment = a
   return memory;
 }
 
+/// The allocator of LargeVector.
 template <class T>
 struct LargePages {
   using value_type = T;

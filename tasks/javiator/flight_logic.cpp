@@ -100,7 +100,7 @@ void follow(const PilotCommand& command, const FlightEstimate& e, bool wants_pos
   d.hold_position = wants_position;
   d.yaw = command.yaw;
   d.altitude = std::max(command.altitude, 0.0);
-  // told to go to the ground it comes down where it is, wherever else it is told to be
+  // sent to the ground it comes down where it is, wherever else it is sent
   const bool to_ground = command.altitude <= ground;
   const bool settles = wants_position && to_ground && !d.stands && e.altitude_known && e.altitude < low;
   if (settles && !state.settles) stay_here(e, d);

@@ -24,7 +24,7 @@ double turned(const Flight& flight, double from, double to) {
   return most;
 }
 
-// Hovers until it is told at 10 s to go to an altitude, and 1.5 s later to a place 3 m away.
+// Hovers until it is sent at 10 s to an altitude, and 1.5 s later to a place 3 m away.
 Flight go_low(double altitude, double away_at) {
   return fly({.pilot =
                   [&](double t) {
@@ -65,7 +65,7 @@ TEST_SUITE("tools/javiator_goals") {
     }
   }
 
-  TEST_CASE("told to the ground it stands where it comes down, wherever else it is told to be") {
+  TEST_CASE("sent to the ground it stands where it comes down, wherever else it is sent") {
     for (const double away_at : {10.0, 11.0, 11.5, 12.5}) {
       CAPTURE(away_at);
       const Flight flight = go_low(0, away_at);

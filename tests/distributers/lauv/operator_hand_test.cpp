@@ -99,7 +99,7 @@ TEST_SUITE("distributers/lauv_operator_hand") {
     check(c.setpoint(), by_hand(0, 0.7));
   }
 
-  TEST_CASE("astern it is driven at the surface only, and who wants it below is told why not") {
+  TEST_CASE("astern it is driven at the surface only, and who wants it below gets the reason") {
     const char* const why =
         "astern it goes at the surface only; below 0.2 m the propeller stops, as the fins steer the other way round";
     const auto at_depth = [](Conversation& c, double depth) { c.report({.depth = depth}); };

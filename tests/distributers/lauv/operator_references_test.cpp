@@ -30,7 +30,7 @@ TEST_SUITE("distributers/lauv_operator_references") {
     CHECK(state.control_loops == 0x4c8);  // depth, yaw, speed, torque
   }
 
-  TEST_CASE("a depth beyond the limit less its margin is taken as that, and who wants it is told so, once") {
+  TEST_CASE("a depth beyond the limit less its margin is taken as that, and who wants it gets the reason, once") {
     LauvOperatorParameters parameters;
     parameters.limits.max_depth = 20;
     parameters.limits.margin = 1;

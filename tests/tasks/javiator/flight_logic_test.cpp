@@ -94,7 +94,7 @@ TEST_SUITE("tasks/flight_logic") {
     CHECK(logic.out.directive.x == 30);
   }
 
-  TEST_CASE("told to the ground it stays where it is from 30 cm on, and rises to 30 cm for the way to another place") {
+  TEST_CASE("sent to the ground it stays where it is from 30 cm on, and rises to 30 cm for the way to another place") {
     Logic logic;
     logic.in.command.mode_switches = 1;
     logic.fly();

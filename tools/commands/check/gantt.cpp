@@ -9,11 +9,7 @@
 
 namespace jarol::tools {
 
-std::int64_t known_from(const analysis::Result& result) {
-  const std::vector<analysis::Slice>& slices = result.slices;
-  const bool cut = result.slices_from == 0 && slices.size() >= analysis::max_slices;
-  return std::max({result.late->release, result.slices_from, cut ? slices.front().begin : 0});
-}
+std::int64_t known_from(const analysis::Result& result) { return std::max(result.late->release, result.slices_from); }
 
 namespace {
 
