@@ -1,4 +1,4 @@
-// A chunk that is being filled: records in memory, with where the messages of each channel stand.
+// A chunk that is being filled: records in memory, and their check sum.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,6 @@
 #include <cstring>
 #include <memory>
 #include <string_view>
-#include <vector>
 
 #include "runtime/machine/large_pages.h"
 #include "runtime/machine/prefetch.h"
@@ -19,13 +18,17 @@ class Chunk {
  public:
   Chunk() = default;
 
+  /// So much memory, from the system now and not when it is first written to.
+  void reserve(std::size_t bytes) {
+    if (capacity_ < bytes) use(make_large_zeros(bytes), bytes);
+  }
+
   /// A schema or a channel, before its first message.
   void add(std::string_view record) { std::memcpy(room_for(record.size()), record.data(), record.size()); }
 
   /// The caller writes its data there.
   std::byte* add_message(std::uint16_t channel, std::uint32_t sequence, std::int64_t time, std::size_t size) {
     if (size_ - summed_ >= summed_at_once) sum();
-    const std::uint64_t offset = size_;
     std::byte* const at = room_for(message_head + size);
     prefetch_for_write(memory_.get(), capacity_, size_);
     const auto opcode = Opcode::message;
@@ -36,8 +39,6 @@ class Chunk {
     std::memcpy(at + 11, &sequence, 4);
     std::memcpy(at + 15, &time, 8);
     std::memcpy(at + 23, &time, 8);
-    if (channel >= entries_.size()) entries_.resize(channel + std::size_t{1});
-    entries_[channel].push_back({time, offset});
     if (messages_++ == 0) start_ = end_ = time;
     start_ = std::min(start_, time);
     end_ = std::max(end_, time);
@@ -56,8 +57,6 @@ class Chunk {
   std::uint64_t messages() const { return messages_; }
   std::int64_t start() const { return start_; }
   std::int64_t end() const { return end_; }
-  /// By channel; those of most are empty.
-  const std::vector<std::vector<IndexEntry>>& entries() const { return entries_; }
 
   /// Its memory stays.
   void clear() {
@@ -66,7 +65,6 @@ class Chunk {
     sealed_ = false;
     messages_ = 0;
     start_ = end_ = 0;
-    for (auto& of_channel : entries_) of_channel.clear();
   }
 
  private:
@@ -88,7 +86,9 @@ class Chunk {
     constexpr std::size_t first = std::size_t{1} << 16, quickly = std::size_t{1} << 18;
     std::size_t capacity = std::max({2 * capacity_, size_ + bytes, first});
     if (capacity > quickly) capacity = std::max(capacity, large_page);
-    LargeMemory larger = make_large(capacity);
+    use(make_large(capacity), capacity);
+  }
+  void use(LargeMemory larger, std::size_t capacity) {
     if (size_ > 0) std::memcpy(larger.get(), memory_.get(), size_);
     memory_ = std::move(larger);
     capacity_ = capacity;
@@ -99,7 +99,6 @@ class Chunk {
   std::size_t summed_ = 0;  // so many bytes
   std::uint32_t crc_ = 0;   // of these
   bool sealed_ = false;
-  std::vector<std::vector<IndexEntry>> entries_;
   std::uint64_t messages_ = 0;
   std::int64_t start_ = 0, end_ = 0;  // ns
 };

@@ -100,24 +100,17 @@ void Writer::write(const Chunk& chunk) {
   put(head_, place.compressed);
   put_out(head_);
   const std::uint64_t indexes_at = offset() + stored.size();
-  index_.clear();
-  const std::vector<std::vector<IndexEntry>>& entries = chunk.entries();
-  counts_.resize(std::max(counts_.size(), entries.size()));
-  for (std::size_t channel = 0; channel < entries.size(); ++channel) {
-    const std::vector<IndexEntry>& of_channel = entries[channel];
-    if (of_channel.empty()) continue;
-    counts_[channel] += of_channel.size();
-    place.indexes.emplace_back(static_cast<std::uint16_t>(channel), indexes_at + index_.size());
-    const auto bytes = static_cast<std::uint32_t>(of_channel.size() * sizeof(IndexEntry));
-    put_head(index_, Opcode::message_index, 2 + 4 + bytes);
-    put(index_, static_cast<std::uint16_t>(channel));
-    put_text(index_, {reinterpret_cast<const char*>(of_channel.data()), bytes});
+  index_.make(records);
+  for (const auto& [channel, at, messages] : index_.channels()) {
+    if (channel >= counts_.size()) counts_.resize(channel + std::size_t{1});
+    counts_[channel] += messages;
+    place.indexes.emplace_back(channel, indexes_at + at);
   }
-  place.index_length = index_.size();
+  place.index_length = index_.records().size();
   // all of it in one go
   count(stored, compression == Compression::none ? crc : crc32(stored));
-  count(index_, crc32(index_));
-  file_.append(waiting_, stored, index_);
+  count(index_.records(), crc32(index_.records()));
+  file_.append(waiting_, stored, index_.records());
   waiting_.clear();
   chunks_.push_back(std::move(place));
 }

@@ -10,6 +10,7 @@
 #include "runtime/files/appender.h"
 #include "runtime/mcap/chunk.h"
 #include "runtime/mcap/compression.h"
+#include "runtime/mcap/message_index.h"
 
 namespace jarol::mcap {
 
@@ -43,7 +44,8 @@ class Writer {
   std::vector<std::uint64_t> counts_;  // messages, per channel
   std::string attachment_indexes_;     // records
   std::uint32_t attachments_ = 0;
-  std::string head_, compressed_, index_;  // memory that is used again
+  std::string head_, compressed_;  // memory that is used again
+  MessageIndex index_;
 };
 
 }  // namespace jarol::mcap

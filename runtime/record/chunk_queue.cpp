@@ -32,18 +32,16 @@ void ChunkQueue::push(ChunkPointer chunk) {
 
 void ChunkQueue::wait_and_push(ChunkPointer chunk) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&, bytes = chunk->records().size()] { return has_room_for(bytes) || failure_ || ended_; });
+  changed_.wait(lock, [&, bytes = chunk->records().size()] { return has_room(bytes) || failure_ || ended_; });
   put(std::move(chunk));
 }
 
-bool ChunkQueue::push_if_room(ChunkPointer& chunk) {
+bool ChunkQueue::has_room_for(std::size_t bytes) {
   const std::lock_guard lock(mutex_);
-  if (!has_room_for(chunk->records().size())) return false;
-  put(std::move(chunk));
-  return true;
+  return has_room(bytes);
 }
 
-bool ChunkQueue::has_room_for(std::size_t bytes) const {
+bool ChunkQueue::has_room(std::size_t bytes) const {
   return waiting_.empty() || (waiting_.size() < room && waiting_bytes_ + bytes <= max_bytes);
 }
 

@@ -36,8 +36,8 @@ class ChunkQueue {
   void push(ChunkPointer chunk);
   /// Waits until fewer than `room` wait, and of large ones no more than `max_bytes`, or none.
   void wait_and_push(ChunkPointer chunk);
-  /// False: so many wait already, and the chunk stays the caller's.
-  bool push_if_room(ChunkPointer& chunk);
+  /// So few wait that one of so many bytes would not have to.
+  bool has_room_for(std::size_t bytes);
   /// Chunks that may wait, but for those that are pushed in any case.
   static constexpr std::size_t room = 16;
   static constexpr std::size_t max_bytes = std::size_t{64} << 20;
@@ -51,7 +51,7 @@ class ChunkQueue {
  private:
   void run();
   void put(ChunkPointer chunk);
-  bool has_room_for(std::size_t bytes) const;
+  bool has_room(std::size_t bytes) const;
 
   std::function<void(const mcap::Chunk&)> write_;
   std::mutex mutex_;

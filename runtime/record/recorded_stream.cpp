@@ -6,11 +6,19 @@
 #include "graph/values/type_of.h"
 
 namespace jarol {
+namespace {
+void widen(std::optional<Gap>& gap, const Gap& more) {
+  if (!gap) gap = Gap{more.from, more.to, 0};
+  gap->from = std::min(gap->from, more.from);
+  gap->to = std::max(gap->to, more.to);
+  gap->values += more.values;
+}
+}  // namespace
 
 RecordedStream::RecordedStream(ChunkQueue& queue, Pressure pressure, const std::vector<mcap::Schema>& schemas,
                                const std::vector<std::optional<RecordedTopic>>& topics,
                                const std::vector<RecordedTopic>& beside)
-    : queue_(queue), pressure_(pressure), chunk_(queue.empty_chunk()) {
+    : queue_(queue), pressure_(pressure), chunks_([this] { return make_chunk(); }) {
   std::vector<bool> described(schemas.size() + 1);
   const auto lane = [&](const RecordedTopic& topic) {
     const std::uint16_t schema = topic.channel.schema;
@@ -32,14 +40,16 @@ void RecordedStream::take(Duration instant, std::uint32_t output, const void* va
 void RecordedStream::append(Lane& lane, Duration instant, const void* value) {
   newest_ = instant;
   const std::size_t size = lane.encoder.size(value);
-  if (chunk_->records().size() + size > chunk_bytes && chunk_->messages() > 0) hand_on();
+  if (const mcap::Chunk& chunk = chunks_.filling(); chunk.records().size() + size > chunk_bytes && chunk.messages() > 0)
+    hand_on();
   put(lane, instant, value, size);
 }
 
 // However full the chunk is.
 void RecordedStream::put(Lane& lane, Duration instant, const void* value, std::size_t size) {
-  if (!std::exchange(are_described_, true)) chunk_->add(descriptions_);
-  lane.encoder.encode(value, chunk_->add_message(lane.channel, lane.next++, instant.count(), size));
+  mcap::Chunk& chunk = chunks_.filling();
+  if (!std::exchange(are_described_, true)) chunk.add(descriptions_);
+  lane.encoder.encode(value, chunk.add_message(lane.channel, lane.next++, instant.count(), size));
 }
 
 void RecordedStream::take_event(const RunEvent& event) {
@@ -59,63 +69,106 @@ void RecordedStream::append_beside(std::size_t i, Duration instant, const void* 
 // Not so often that chunks are small, and not so seldom that much is lost with a program that is killed, or with the
 // later parts of a recording.
 void RecordedStream::pause() {
-  if (chunk_->messages() == 0) return;
-  if (chunk_->records().size() >= small_chunk_bytes || (is_needed() && queue_.pushed() != pushed_) ||
+  const mcap::Chunk& chunk = chunks_.filling();
+  if (chunk.messages() == 0) return;
+  if (chunk.records().size() >= small_chunk_bytes || (is_needed() && queue_.pushed() != pushed_) ||
       std::chrono::steady_clock::now() - handed_on_ >= std::chrono::milliseconds(200))
     hand_on();
 }
 
 void RecordedStream::finish() {
-  if (chunk_->messages() > 0 || gap_) hand_on(true);
+  bell_ = nullptr;  // whoever took is done
+  if (chunks_.filling().messages() > 0 || gap_) hand_on(true);
+  carry(true);
+  if (lost_) widen(gap_, *std::exchange(lost_, std::nullopt));
+  if (failure_) std::rethrow_exception(failure_);
   is_finished_ = true;
 }
 
 // What a replay needs can't lack anything: its recorder fails then.
 void RecordedStream::take_loss(const Loss& loss) {
-  if (!is_needed()) add_to_gap(loss.from.count(), loss.to.count(), loss.values);
+  if (!is_needed()) widen(gap_, {loss.from.count(), loss.to.count(), loss.values});
 }
 
 void RecordedStream::end_unfinished(Duration covered) {
   if (is_finished_ || !newest_) return;
-  const std::int64_t last = std::max(covered, *newest_).count();
-  add_to_gap(newest_->count(), last, 0);
-  if (chunk_) {
-    drop_chunk(chunk_->messages());
-  } else {
-    chunk_ = queue_.empty_chunk();
-  }
+  bell_ = nullptr;
+  failure_ = nullptr;
+  if (lost_) widen(gap_, *lost_);
+  widen(gap_, {newest_->count(), std::max(covered, *newest_).count(), 0});
+  drop_chunk(chunks_.filling().messages());
   hand_on(true);
+  if (failure_) std::rethrow_exception(failure_);
 }
 
 // A gap stands in the chunk that follows it.
 void RecordedStream::hand_on(bool last) {
   handed_on_ = std::chrono::steady_clock::now();
-  const std::uint64_t values = chunk_->messages();
-  if (gap_) put(beside_[1], Duration(gap_->to), &*gap_, beside_[1].encoder.size(&*gap_));
-  chunk_->seal();
-  if (pressure_ == Pressure::drops && !last && !queue_.push_if_room(chunk_)) {
-    dropped_ += values;
-    return drop_chunk(values);
+  mcap::Chunk& chunk = chunks_.filling();
+  if (!chunks_.has_room() && !make_room(last)) {
+    dropped_ += chunk.messages();
+    return drop_chunk(chunk.messages());
   }
-  if (waits() && chunk_) queue_.wait_and_push(std::move(chunk_));
-  if (chunk_) queue_.push(std::move(chunk_));
-  pushed_ = queue_.pushed();
-  chunk_ = queue_.empty_chunk();
+  if (gap_) put(beside_[1], Duration(gap_->to), &*gap_, beside_[1].encoder.size(&*gap_));
+  chunk.seal();
+  chunks_.next();
   gap_.reset();
   is_first_ = false;
+  if (bell_ == nullptr)
+    carry(last);
+  else if (chunks_.waiting() >= ChunkRing::chunks / 2)
+    bell_->ring_if_asleep();
+  pushed_ = queue_.pushed();
+}
+
+// False: so far the writer is behind.
+bool RecordedStream::make_room(bool last) {
+  if (bell_ == nullptr) {
+    carry(last);
+  } else if (waits()) {
+    bell_->ring_if_asleep();
+    chunks_.wait_for_room();
+  }
+  return chunks_.has_room();
 }
 
 void RecordedStream::drop_chunk(std::uint64_t values) {
-  if (values > 0) add_to_gap(chunk_->start(), chunk_->end(), values);
-  chunk_->clear();
+  mcap::Chunk& chunk = chunks_.filling();
+  if (values > 0) widen(gap_, {chunk.start(), chunk.end(), values});
+  chunk.clear();
   if (is_first_) are_described_ = false;  // they were in it
 }
 
-void RecordedStream::add_to_gap(std::int64_t from, std::int64_t to, std::uint64_t values) {
-  if (!gap_) gap_ = Gap{from, to, 0};
-  gap_->from = std::min(gap_->from, from);
-  gap_->to = std::max(gap_->to, to);
-  gap_->values += values;
+ChunkQueue::ChunkPointer RecordedStream::make_chunk() {
+  ChunkQueue::ChunkPointer chunk = queue_.empty_chunk();
+  if (!is_needed()) chunk->reserve(chunk_bytes + small_chunk_bytes);
+  return chunk;
+}
+
+// `all`: however many wait in the queue.
+bool RecordedStream::carry(bool all) {
+  bool any = false;
+  for (ChunkQueue::ChunkPointer* full = chunks_.full(); full != nullptr; full = chunks_.full()) {
+    if (pressure_ == Pressure::drops && !all && !queue_.has_room_for((*full)->records().size())) return any;
+    const Gap range{(*full)->start(), (*full)->end(), (*full)->messages()};
+    if (failure_ == nullptr) push(*full);
+    if (failure_ != nullptr) {
+      widen(lost_, range);
+      (*full)->clear();
+    }
+    chunks_.taken();
+    any = true;
+  }
+  return any;
+}
+
+// An empty one takes its place.
+void RecordedStream::push(ChunkQueue::ChunkPointer& chunk) {
+  try {
+    ChunkQueue::ChunkPointer empty = make_chunk();
+    std::swap(chunk, empty);
+    waits() ? queue_.wait_and_push(std::move(empty)) : queue_.push(std::move(empty));
+  } catch (...) { failure_ = std::current_exception(); }
 }
 
 }  // namespace jarol

@@ -1,14 +1,16 @@
-// A sink that puts what it takes into chunks of a recording: a topic for each output, and the chunks handed to the
-// queue.
+// A sink that puts what it takes into chunks of a recording, as it stands in the file: a topic for each output. Whoever
+// takes fills chunks, and the recorder's thread hands them to the queue.
 #pragma once
 
 #include <array>
 #include <chrono>
+#include <exception>
 #include <optional>
 #include <vector>
 
 #include "runtime/record/cdr.h"
 #include "runtime/record/chunk_queue.h"
+#include "runtime/record/chunk_ring.h"
 #include "runtime/record/recording_format.h"
 #include "runtime/record/sink.h"
 
@@ -20,7 +22,7 @@ struct RecordedTopic {
   const Type* type = nullptr;
 };
 
-class RecordedStream final : public RecordSink {
+class RecordedStream final : public DirectSink {
  public:
   /// What becomes of chunks where the disk is behind. What is kept is needed to replay the others, and goes out
   /// with each chunk of theirs: on the real clock however many wait already, else once there is room.
@@ -29,6 +31,11 @@ class RecordedStream final : public RecordSink {
   /// By output the topic for it; none: it is not recorded. `beside`: the topics for events and gaps. `schemas`: of all.
   RecordedStream(ChunkQueue& queue, Pressure pressure, const std::vector<mcap::Schema>& schemas,
                  const std::vector<std::optional<RecordedTopic>>& topics, const std::vector<RecordedTopic>& beside);
+
+  /// What is needed is not taken directly: however much of it waits, its run goes on.
+  DirectSink* direct() override { return is_needed() ? nullptr : this; }
+  void take_directly(Bell* bell) override { bell_ = bell; }
+  bool carry() override { return carry(false); }
 
   bool wants(std::uint32_t output) const override { return output < lanes_.size() && lanes_[output].wanted; }
   void take(Duration instant, std::uint32_t output, const void* value) override;
@@ -55,7 +62,7 @@ class RecordedStream final : public RecordSink {
     std::uint32_t next = 0;  // number of its message
     bool wanted = true;
   };
-  static constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
+  static constexpr std::size_t chunk_bytes = std::size_t{1} << 18;
   static constexpr std::size_t small_chunk_bytes = std::size_t{1} << 16;
 
   bool is_needed() const { return pressure_ == Pressure::keeps || pressure_ == Pressure::keeps_by_waiting; }
@@ -63,24 +70,34 @@ class RecordedStream final : public RecordSink {
   void append(Lane& lane, Duration instant, const void* value);
   void put(Lane& lane, Duration instant, const void* value, std::size_t size);
   void hand_on(bool last = false);
+  bool make_room(bool last);
   void drop_chunk(std::uint64_t values);
-  void add_to_gap(std::int64_t from, std::int64_t to, std::uint64_t values);
+  bool carry(bool all);
+  void push(ChunkQueue::ChunkPointer& chunk);
+  ChunkQueue::ChunkPointer make_chunk();
 
   ChunkQueue& queue_;
   const Pressure pressure_;
   std::vector<Lane> lanes_;  // per output
   std::vector<Lane> beside_;
   std::vector<std::string> task_names_;
-  ChunkQueue::ChunkPointer chunk_;
+  Bell* bell_ = nullptr;  // null: one thread fills chunks and carries them
+  ChunkRing chunks_;
+
+  // Of whoever fills chunks, and of all once nothing comes any more:
   std::chrono::steady_clock::time_point handed_on_{};
   std::uint64_t pushed_ = 0;  // chunks, by all streams of the queue, when this one handed on its newest
   std::string descriptions_;  // records that stand before the first message
   bool are_described_ = false;
-  bool is_first_ = true;    // no chunk was written yet
-  std::optional<Gap> gap_;  // since the newest chunk that was written
+  bool is_first_ = true;    // no chunk was handed on yet
+  std::optional<Gap> gap_;  // since the newest chunk that was handed on
   std::uint64_t dropped_ = 0;
   std::optional<Duration> newest_;  // instant of the newest message
   bool is_finished_ = false;
+
+  // Of whoever carries them:
+  std::exception_ptr failure_;  // there was no memory to go on; nothing is carried any more
+  std::optional<Gap> lost_;     // by that
 };
 
 constexpr std::array<Enumerator<RunEvent::Kind>, 4> enumerators(RunEvent::Kind) {

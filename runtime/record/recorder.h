@@ -1,4 +1,5 @@
-// Recording of every publication: the thread that runs tasks only appends to memory, another one hands it on.
+// Recording of every publication: the thread that runs tasks only appends to memory, another one hands it on. A sink
+// that takes directly gets it on the way.
 #pragma once
 
 #include <atomic>
@@ -7,37 +8,36 @@
 #include <cstdint>
 #include <cstring>
 #include <exception>
-#include <map>
 #include <memory>
-#include <optional>
-#include <span>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "graph/values/value.h"
+#include "runtime/machine/bell.h"
 #include "runtime/machine/copy_fresh.h"
 #include "runtime/machine/large_pages.h"
 #include "runtime/machine/prefetch.h"
 #include "runtime/plan/output.h"
+#include "runtime/record/fed_sinks.h"
 #include "runtime/record/large_values.h"
 #include "runtime/record/lost_values.h"
 #include "runtime/record/record_header.h"
 #include "runtime/record/sink.h"
+#include "runtime/record/sink_failures.h"
 
 namespace jarol {
 
 class Recorder {
  public:
-  /// The sinks outlive the recorder.
+  /// The sinks outlive the recorder. The first that can takes directly.
   explicit Recorder(std::vector<RecordSink*> sinks, Duration hand_on_period = std::chrono::seconds(1));
 
   /// What will be recorded, before the first of it.
   void expect(const std::vector<Output>& outputs);
 
   /// Sinks get values in order of instants though they may be appended out of order, up to that long after a later one.
-  /// Before the first value.
-  void put_in_order(Duration longest) { disorder_ = longest; }
+  /// Before the first value, and before what will be recorded is known or after that.
+  void put_in_order(Duration longest);
 
   /// Values up to this size can be recorded, a mebibyte less than a chunk of a recording may have. A larger one is
   /// lost, and `lost` says so.
@@ -47,9 +47,67 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Appends one value. Calls the system only where the sinks are half a ring behind, and waits if they are a whole
-  /// one.
+  /// Appends one value, if a sink wants it. Calls the system only where the sinks are half a ring behind, and waits if
+  /// they are a whole one.
   void append(Duration instant, std::uint32_t output, const void* value, std::uint32_t size) {
+    const std::uint8_t by = wanted_by(output);
+    if ((by & directly) != 0) give(instant, output, value);
+    if ((by & by_ring) != 0) append_to_ring(instant, output, value, size);
+  }
+
+  /// The same for a deep value.
+  void append_deep(Duration instant, std::uint32_t output, const void* value);
+
+  /// Appends what happened beside publications.
+  [[gnu::cold]] void append_event(const RunEvent& event);
+
+  /// What is appended while the sinks are a whole ring behind is lost, rather than waited for, and all that follows;
+  /// each learns what it lacks.
+  void never_wait() { waits_ = false; }
+  /// Hands on what was appended so far, if the sinks have all that was handed on before.
+  void hand_on() {
+    pause_direct();
+    if (used_ > 0 && read_.load(std::memory_order_acquire) == written_.load(std::memory_order_relaxed)) next_chunk();
+  }
+  /// How much time may go by until what little there is, is handed on.
+  Duration hand_on_period() const { return hand_on_period_; }
+  /// Hands on what was appended so far and waits until the sinks have it, but for what is held for its order.
+  void catch_up();
+  /// Throws the first that a sink has thrown by then. After `catch_up`.
+  void rethrow_failure() const { failures_.rethrow_first(); }
+  /// The first that was not recorded, and why, which `close` throws; empty: all was.
+  const std::string& lost() const { return lost_; }
+
+  /// Hands on all that was appended, ends the thread and lets the sinks finish; throws what a sink threw, or, of
+  /// several, std::runtime_error with all of it. One that has thrown gets nothing more and does not finish; the others
+  /// get all.
+  void close();
+  /// What that sink has thrown; empty: nothing. After `catch_up` or `close`.
+  std::string failure_of(const RecordSink& sink) const { return failures_.of(sink); }
+  /// Why that sink has not got all; empty: it has. After `close`.
+  std::string why_not_all(const RecordSink& sink) const;
+
+ private:
+  static constexpr std::size_t chunk_bytes = std::size_t{256} << 10;
+  static constexpr std::size_t chunks = 8;
+
+  // Who wants an output.
+  enum By : std::uint8_t { directly = 1, by_ring = 2 };
+  std::uint8_t wanted_by(std::uint32_t output) const {
+    return output < wanted_.size() ? wanted_[output] : wanted_beside_;
+  }
+  void find_wanted();
+
+  void give(Duration instant, std::uint32_t output, const void* value) {
+    try {
+      direct_->take(instant, output, value);
+    } catch (...) { fail_directly(); }
+  }
+  void pause_direct();
+  [[gnu::cold]] void fail_directly();
+  void note_direct_failure();
+
+  void append_to_ring(Duration instant, std::uint32_t output, const void* value, std::uint32_t size) {
     const std::size_t padded = (size + 7U) & ~std::size_t{7};
     if (chunk_bytes - used_ < sizeof(RecordHeader) + padded) {
       if (sizeof(RecordHeader) + padded > chunk_bytes) return append_large(instant, output, value, size);
@@ -64,78 +122,26 @@ class Recorder {
       std::memcpy(now_ + used_ + sizeof header, value, size);
     used_ += sizeof header + padded;
   }
-
-  /// The same for a deep value.
-  void append_deep(Duration instant, std::uint32_t output, const void* value);
-
-  /// Some sink wants publications of that output.
-  bool wants(std::uint32_t output) const { return wanted_[output] != 0; }
-
-  /// Appends what happened beside publications.
-  [[gnu::cold]] void append_event(const RunEvent& event);
-
-  /// What is appended while the sinks are a whole ring behind is lost, rather than waited for, and all that follows;
-  /// each learns what it lacks.
-  void never_wait() { waits_ = false; }
-  /// Hands on what was appended so far, if the sinks have all that was handed on before.
-  void hand_on() {
-    if (used_ > 0 && read_.load(std::memory_order_acquire) == written_.load(std::memory_order_relaxed)) next_chunk();
-  }
-  /// How much time may go by until what little there is, is handed on.
-  Duration hand_on_period() const { return hand_on_period_; }
-  /// Hands on what was appended so far and waits until the sinks have it, but for what is held for its order.
-  void catch_up();
-  /// Throws the first that a sink has thrown by then. After `catch_up`.
-  void rethrow_failure() const;
-  /// The first that was not recorded, and why, which `close` throws; empty: all was.
-  const std::string& lost() const { return lost_; }
-
-  /// Hands on all that was appended, ends the thread and lets the sinks finish; throws what a sink threw, or, of
-  /// several, std::runtime_error with all of it. One that has thrown gets nothing more and does not finish; the others
-  /// get all.
-  void close();
-  /// What that sink has thrown; empty: nothing. After `catch_up` or `close`.
-  std::string failure_of(const RecordSink& sink) const;
-  /// Why that sink has not got all; empty: it has. After `close`.
-  std::string why_not_all(const RecordSink& sink) const;
-
- private:
-  static constexpr std::size_t chunk_bytes = std::size_t{256} << 10;
-  static constexpr std::size_t chunks = 8;
-
   [[gnu::cold]] void append_large(Duration instant, std::uint32_t output, const void* value, std::size_t size);
   void lose(Duration instant, std::uint32_t output, std::size_t size, const std::string& why);
+  void lose_too_large(Duration instant, std::uint32_t output, std::size_t size);
   void next_chunk();
   [[gnu::cold]] void cut_off();
   void publish_chunk();
-  [[gnu::cold]] void wake();
-  void sleep(std::uint32_t bell, std::chrono::microseconds longest);
   void run();
-  void drain(const std::byte* chunk, std::size_t bytes);
-  void hold(const RecordHeader& header, const std::byte* packed);
-  void hand_on_held(Duration until);
-  void hand_on(const RecordHeader& header, const std::byte* packed);
-  void hand_on_event(const RecordHeader& header, const std::byte* packed);
-  template <class Call>
-  void each_taking(const Call& call);
-  [[gnu::cold]] void note_failure(const RecordSink* sink);
-  const void* value_of(const RecordHeader& header, const std::byte* packed);
+  static DirectSink* take_direct(std::vector<RecordSink*>& sinks);
 
-  std::vector<RecordSink*> sinks_;
-  std::vector<RecordSink*> taking_;  // those of them that have not failed
+  SinkFailures failures_;
+  DirectSink* const carrying_;  // what it takes directly the thread that drains carries on
+  DirectSink* direct_;          // the same while it takes directly
+  FedSinks others_;
   const Duration hand_on_period_;
   std::vector<Output> outputs_;
-  std::vector<std::uint8_t> wanted_;  // per output
-  std::vector<Value> deep_values_;    // per output: what the sinks see, empty for flat ones
-  std::string lost_;                  // the first value, and why
-  LostValues lost_values_;            // that and all others
-  struct Held {
-    RecordHeader header;
-    std::vector<std::byte> packed;
-  };
-  std::optional<Duration> disorder_;    // none: all comes in order
-  std::multimap<Duration, Held> held_;  // by instant, then as they came
-  Duration newest_{};                   // instant of a value held
+  std::vector<std::uint8_t> wanted_;  // per output: by whom
+  std::uint8_t wanted_beside_ = 0;    // the same of those that follow them, and of events
+  std::string lost_, too_large_;      // the first value, and why; the first that no sink can take
+  LostValues lost_values_;            // that and all others of the ring
+  LostValues too_large_values_;
   LargeMemory memory_;
   std::size_t bytes_[chunks] = {};  // filled part of each chunk; more than it has: a large value in its place
   LargeValues<chunks> large_;
@@ -145,14 +151,8 @@ class Recorder {
   bool is_cut_off_ = false;                // nothing is handed on any more
   std::atomic<std::uint64_t> written_{0};  // chunks handed on; the top bit says that no more will come
   std::atomic<std::uint64_t> read_{0};     // chunks drained
-  std::atomic<std::uint32_t> bell_{0};     // changes where the thread that drains is to be woken
-  std::atomic<bool> is_asleep_{false};     // that thread
-  struct Failed {
-    const RecordSink* sink;  // null: all of them
-    std::string why;
-  };
-  std::exception_ptr failure_;  // the first; read when all is drained
-  std::vector<Failed> failed_;
+  Bell bell_;                              // of the thread that drains
+  std::exception_ptr direct_failure_;      // of the one that takes directly, until it is noted with the others
   std::thread thread_;
 };
 

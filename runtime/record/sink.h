@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "runtime/machine/bell.h"
 #include "runtime/plan/output.h"
 
 namespace jarol {
@@ -26,10 +27,14 @@ struct Loss {
   std::uint64_t values = 0;  // of all, how many
 };
 
+class DirectSink;
+
 /// All is called on the recorder's thread, in the order in which it took place.
 class RecordSink {
  public:
   virtual ~RecordSink() = default;
+  /// Itself, if it is one.
+  virtual DirectSink* direct() { return nullptr; }
   /// False: publications of that output need not be recorded for it.
   virtual bool wants(std::uint32_t) const { return true; }
   /// A publication, by the index of its output, or the true values of a vehicle.
@@ -42,6 +47,18 @@ class RecordSink {
   /// After the last value. Throws if anything was lost. A sink that has thrown, here or above, gets nothing more, nor
   /// is it asked to finish: what it has is not whole.
   virtual void finish() = 0;
+};
+
+/// A sink that can take what comes directly from the thread that publishes, where it neither locks nor calls the system
+/// as long as the recorder's thread keeps up: what it makes of a value is then the only copy.
+class DirectSink : public RecordSink {
+ public:
+  DirectSink* direct() override { return this; }
+  /// From now on `take`, `take_event` and `pause` are called by the thread that publishes, and the bell wakes the
+  /// recorder's; null: it is a sink as any other. Before the first value.
+  virtual void take_directly(Bell* bell) = 0;
+  /// On the recorder's thread, often: hands on what was taken; false: there was nothing.
+  virtual bool carry() = 0;
 };
 
 }  // namespace jarol

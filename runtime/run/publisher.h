@@ -21,7 +21,6 @@ template <bool Digest, bool AtOnce = false>
 
 inline void record(Recorder& recorder, const Publish& what, Duration instant) {
   for (const Publication& p : what.publications) {
-    if (!recorder.wants(p.output)) continue;
     if (p.size > 0) [[likely]] {
       recorder.append(instant, p.output, p.value, p.size);
     } else {

@@ -16,9 +16,17 @@ using namespace std::chrono_literals;
 
 // Stands still until it is let go.
 struct Stalled : RecordSink {
-  void take(Duration, std::uint32_t, const void*) override { free.wait(false); }
+  void take(Duration, std::uint32_t, const void*) override {
+    stands = true;
+    stands.notify_all();
+    free.wait(false);
+  }
   void finish() override {}
-  std::atomic<bool> free{false};
+  void let_go() {
+    free = true;
+    free.notify_all();
+  }
+  std::atomic<bool> stands{false}, free{false};
 };
 
 // Hands everything on until that instant, and throws there.
@@ -43,8 +51,8 @@ struct LossyRecording {
     writer.open();
   }
   ~LossyRecording() { std::filesystem::remove(path); }
-  static void append(Recorder& recorder, std::int64_t count) {
-    for (std::int64_t i = 0; i < count; ++i) {
+  static void append(Recorder& recorder, std::int64_t count, std::int64_t first = 0) {
+    for (std::int64_t i = first; i < count; ++i) {
       const auto number = static_cast<double>(i);
       recorder.append(Duration(i), 0, &number, sizeof number);
     }
@@ -64,15 +72,36 @@ constexpr std::int64_t lost_count = 200'000;
 }  // namespace
 
 TEST_SUITE("runtime/lost_values") {
-  TEST_CASE("what a recorder loses as another sink stalls is a gap in the recording") {
+  TEST_CASE("a recording goes on for as long as another sink stalls as it has memory for, and lacks only the rest") {
     LossyRecording recording;
     Stalled stalled;
     Recorder recorder({&stalled, recording.writer.publications()});
     recorder.expect(outputs_of(recording.graph));
     recorder.never_wait();
+    LossyRecording::append(recorder, 1);
+    recorder.hand_on();
+    stalled.stands.wait(false);
+    LossyRecording::append(recorder, lost_count, 1);
+    stalled.let_go();
+    CHECK_THROWS_AS(recorder.close(), std::length_error);
+    const RecordedRun run = recording.read(lost_count);
+    REQUIRE(run.gaps().size() == 1);
+    const Gap gap = run.gaps()[0];
+    constexpr std::int64_t least = 15 * (256 << 10) / 50;  // of pieces of so many bytes
+    CHECK(gap.from > least);
+    CHECK(gap.to - gap.from + 1 == static_cast<std::int64_t>(gap.values));
+    CHECK(LossyRecording::values_in(run) + gap.values == lost_count);
+  }
+
+  TEST_CASE("what a recorder that puts values in order loses as another sink stalls is a gap in the recording") {
+    LossyRecording recording;
+    Stalled stalled;
+    Recorder recorder({&stalled, recording.writer.publications()});
+    recorder.expect(outputs_of(recording.graph));
+    recorder.put_in_order(0ns);
+    recorder.never_wait();
     LossyRecording::append(recorder, lost_count);
-    stalled.free = true;
-    stalled.free.notify_all();
+    stalled.let_go();
     CHECK_THROWS_WITH_AS(recorder.close(),
                          "values could not be written as fast as they came; from 76454ns on they are lost",
                          std::length_error);
@@ -92,8 +121,7 @@ TEST_SUITE("runtime/lost_values") {
     recorder.expect(outputs_of(recording.graph));
     recorder.never_wait();
     LossyRecording::append(recorder, lost_count);
-    stalled.free = true;
-    stalled.free.notify_all();
+    stalled.let_go();
     CHECK_THROWS_AS(recorder.close(), std::length_error);
     CHECK(recording.read(lost_count).gaps().empty());
   }

@@ -98,6 +98,10 @@ class HeldUp {
   const Written& end() {
     let_go();
     stream_.finish();
+    return close();
+  }
+  const Written& close() {
+    let_go();
     queue_.close();
     return written_;
   }
@@ -119,14 +123,17 @@ class HeldUp {
   std::int64_t next_ = 0;
 };
 
-// Of a chunk of a megabyte, beside the descriptions in the first one.
-constexpr std::int64_t in_a_chunk = (1 << 20) / (static_cast<std::int64_t>(mcap::message_head) + 12);
+// Of a chunk of 256 KiB, beside the descriptions in the first one.
+constexpr std::int64_t in_a_chunk = (1 << 18) / (static_cast<std::int64_t>(mcap::message_head) + 12);
+// So many of them wait in the queue and before it.
+constexpr std::int64_t room = ChunkQueue::room + ChunkRing::chunks - 1;
 }  // namespace
 
 TEST_SUITE("runtime/recorded_stream") {
-  TEST_CASE("while the writer is held up what is published is left out beyond sixteen pieces, counted and reported") {
+  TEST_CASE(
+      "while the writer is held up what is published is left out beyond what there is room for, counted and reported") {
     HeldUp run(Pressure::drops);
-    run.take(20 * in_a_chunk);
+    run.take((room + 4) * in_a_chunk);
     const std::uint64_t dropped = run.stream().dropped();
     CHECK(dropped > 2 * in_a_chunk);
     CHECK(dropped < 4 * in_a_chunk);
@@ -149,12 +156,12 @@ TEST_SUITE("runtime/recorded_stream") {
 
   TEST_CASE("each time that the writer is held up is a gap of its own, and what is published between is there") {
     HeldUp run(Pressure::drops);
-    run.take(18 * in_a_chunk);
+    run.take((room + 2) * in_a_chunk);
     const std::uint64_t first = run.stream().dropped();
     REQUIRE(first > 0);
     run.hold_up_after(ChunkQueue::room);
     const std::int64_t again = run.taken();
-    run.take(19 * in_a_chunk);
+    run.take((room + 3) * in_a_chunk);
     const Written& written = run.end();
     CHECK(written.wrong == "");
     REQUIRE(written.gaps.size() == 2);
@@ -168,7 +175,7 @@ TEST_SUITE("runtime/recorded_stream") {
 
   TEST_CASE("a gap that lasts until the end is reported in a piece of its own") {
     HeldUp run(Pressure::drops);
-    run.take(16 * in_a_chunk);
+    run.take(room * in_a_chunk);
     while (run.stream().dropped() == 0) run.take(1);
     const std::uint64_t dropped = run.stream().dropped();
     const Written& written = run.end();  // after it only the value that did not fit any more
@@ -179,15 +186,56 @@ TEST_SUITE("runtime/recorded_stream") {
 
   TEST_CASE("where even the first piece is left out the topics are described in the next") {
     HeldUp run(Pressure::drops);
-    run.fill_queue();
-    run.take(in_a_chunk + 1);
-    CHECK(run.stream().dropped() > 0);
-    const Written& written = run.end();
+    run.take(3);
+    run.stream().end_unfinished(Duration(9));
+    const Written& written = run.close();
     CHECK(written.wrong == "");
     CHECK(written.channels == std::vector<std::uint16_t>{value_topic, event_topic, gap_topic});
     REQUIRE(written.gaps.size() == 1);
     CHECK(written.gaps[0].from == 0);
-    CHECK(written.values.size() + written.gaps[0].values == static_cast<std::size_t>(run.taken()));
+    CHECK(written.gaps[0].to == 9);
+    CHECK(written.gaps[0].values == 3);
+    CHECK(written.values.empty());
+  }
+
+  TEST_CASE("what is taken directly comes whole and in order where it may wait, and calls for whoever carries it") {
+    HeldUp run(Pressure::waits);
+    Bell bell;
+    run.stream().take_directly(&bell);
+    std::atomic<bool> is_over{false};
+    std::thread carrying([&] {
+      while (!is_over) {
+        const std::uint32_t rings = bell.rings();
+        if (!run.stream().carry()) bell.sleep(rings);
+      }
+    });
+    run.let_go();
+    run.take((room + 24) * in_a_chunk);
+    is_over = true;
+    carrying.join();
+    const Written& written = run.end();
+    CHECK(written.wrong == "");
+    CHECK(written.gaps.empty());
+    REQUIRE(written.values.size() == static_cast<std::size_t>(run.taken()));
+    for (std::size_t i = 0; i < written.values.size(); ++i) REQUIRE(written.values[i] == static_cast<std::int64_t>(i));
+  }
+
+  TEST_CASE("what is taken directly while nobody carries it waits in the stream, and beyond that is left out") {
+    HeldUp run(Pressure::drops);
+    Bell bell;
+    run.stream().take_directly(&bell);
+    run.take((ChunkRing::chunks - 1) * in_a_chunk);
+    CHECK(run.stream().dropped() == 0);
+    CHECK(bell.rings() == 0);  // nobody sleeps
+    run.take(2 * in_a_chunk);
+    CHECK(run.stream().dropped() > 0);
+    while (run.stream().carry()) {}
+    run.take(1);
+    const Written& written = run.end();
+    CHECK(written.wrong == "");
+    REQUIRE(written.gaps.size() == 1);
+    CHECK(written.gaps[0].values == run.stream().dropped());
+    CHECK(written.values.size() + run.stream().dropped() == static_cast<std::size_t>(run.taken()));
   }
 
   TEST_CASE("what a replay needs goes out as soon as a piece of what is published does") {
@@ -226,7 +274,7 @@ TEST_SUITE("runtime/recorded_stream") {
 
   TEST_CASE("what a replay needs is never left out, however long the writer is held up") {
     HeldUp run(Pressure::keeps);
-    run.take(40 * in_a_chunk);
+    run.take((room + 24) * in_a_chunk);
     run.stream().take_event({RunEvent::Kind::fault, Duration(run.taken()), 0, 3, "late"});
     CHECK(run.stream().dropped() == 0);
     const Written& written = run.end();

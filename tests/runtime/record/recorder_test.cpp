@@ -3,6 +3,9 @@
 #include <doctest/doctest.h>
 
 #include <stdexcept>
+#include <thread>
+
+#include "graph/values/type_of.h"
 
 namespace {
 using namespace jarol;
@@ -140,6 +143,64 @@ TEST_SUITE("runtime/recorder") {
     CHECK(broken.events == 0);
     CHECK(!broken.finished);  // what it has is not whole
     CHECK(recorder.why_not_all(broken) == "the disk is full");
+  }
+
+  TEST_CASE("one that can takes directly, on the thread that publishes, and the others get all besides") {
+    struct Direct : DirectSink {
+      void take_directly(Bell* bell) override { is_direct = bell != nullptr; }
+      bool carry() override { return false; }
+      bool wants(std::uint32_t output) const override { return output != 3; }
+      void take(Duration, std::uint32_t output, const void*) override {
+        CHECK(wants(output));
+        on_this_thread &= std::this_thread::get_id() == publishing;
+        if (++count == fails_at) throw std::runtime_error("the disk is full");
+      }
+      void take_event(const RunEvent&) override { ++events; }
+      void finish() override { finished = true; }
+      const std::thread::id publishing = std::this_thread::get_id();
+      bool is_direct = false, on_this_thread = true, finished = false;
+      std::int64_t count = 0, fails_at = -1, events = 0;
+    };
+    static const Type& type = type_of<double>();
+    const std::vector<Output> outputs(7, Output{"o", &type});
+    SUBCASE("in order") {
+      Direct direct;
+      Collect other;
+      Recorder recorder({&other, &direct});
+      recorder.expect(outputs);
+      append(recorder, 7000);
+      CHECK(direct.count == 6000);
+      recorder.append_event({.kind = RunEvent::Kind::fault, .cause = "late"});
+      CHECK(direct.events == 1);
+      recorder.close();
+      CHECK((direct.is_direct && direct.on_this_thread && direct.finished));
+      CHECK((other.count == 7000 && other.in_order && other.events == 1 && other.finished));
+    }
+    SUBCASE("it fails") {
+      Direct direct;
+      direct.fails_at = 10;
+      Collect other;
+      Recorder recorder({&direct, &other});
+      recorder.expect(outputs);
+      append(recorder, 7000);
+      recorder.catch_up();
+      CHECK(recorder.failure_of(direct) == "the disk is full");
+      CHECK(recorder.failure_of(other) == "");
+      CHECK_THROWS_WITH_AS(recorder.close(), "the disk is full", std::runtime_error);
+      CHECK(direct.count == 10);
+      CHECK(!direct.finished);
+      CHECK((other.count == 7000 && other.in_order && other.finished));
+    }
+    SUBCASE("what comes out of order goes by the recorder's thread") {
+      Direct direct;
+      Recorder recorder({&direct});
+      recorder.expect(outputs);
+      recorder.put_in_order(Duration(1));
+      append(recorder, 7000);
+      recorder.close();
+      CHECK((!direct.is_direct && !direct.on_this_thread && direct.finished));
+      CHECK(direct.count == 6000);
+    }
   }
 
   TEST_CASE("of several sinks that fail each says why") {
