@@ -35,11 +35,36 @@ Scaled exp_pair(Pair x) {
   return {fast_sum(m.hi, m.lo + (t.lo + p.lo)), n.number >> 7};
 }
 
+namespace {
+
+// the table's part times e^r, where n steps are left out
+inline Pair times_rest(Pair x, double n, double hi, double lo) {
+  const double r = (x.hi - n * step_1) + (x.lo - n * step_2);
+  return {hi, lo + hi * (r + rest(r))};
+}
+
+}  // namespace
+
 double exp_rounded(Pair x) {
   const Whole n = nearest(x.hi * per_step);
-  const double r = (x.hi - n.value * step_1) + (x.lo - n.value * step_2);
   const Pair t = table[n.number & 127];
-  return scaled({t.hi, t.lo + t.hi * (r + rest(r))}, n.number >> 7);
+  return scaled(times_rest(x, n.value, t.hi, t.lo), n.number >> 7);
+}
+
+void exp_rounded(const Pairs& x, double (&result)[4]) {
+  double n[4], hi[4], lo[4], power[4];
+  for (int i = 0; i < 4; ++i) {
+    const Whole whole = nearest(x.hi[i] * per_step);
+    const Pair t = table[whole.number & 127];
+    n[i] = whole.value;
+    hi[i] = t.hi;
+    lo[i] = t.lo;
+    power[i] = power_of_two(whole.number >> 7);
+  }
+  for (int i = 0; i < 4; ++i) {
+    const Pair m = times_rest({x.hi[i], x.lo[i]}, n[i], hi[i], lo[i]);
+    result[i] = (m.hi + m.lo) * power[i];
+  }
 }
 
 namespace {

@@ -15,5 +15,7 @@ struct Scaled {
 Scaled exp_pair(Pair x);
 // e^x rounded, error below 0.51 ulp, for |x| < 1200
 double exp_rounded(Pair x);
+// of four |x| < 700, each to the same bits
+void exp_rounded(const Pairs& x, double (&result)[4]);
 
 }  // namespace jarol::math

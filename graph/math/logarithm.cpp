@@ -17,22 +17,34 @@ struct Reduced {
   Pair r;
 };
 
-inline Reduced reduce(double x) {
-  int k = 0;
-  if (x < 0x1p-1022) {
-    x *= 0x1p54;
-    k = -54;
-  }
+// x = 2^k m, m in [1/sqrt 2, sqrt 2]
+struct Split {
+  double m;
+  int k;
+};
+
+// normal x
+inline Split split(double x) {
   const std::uint64_t b = bits(x);
-  double m = from_bits((b & 0xfffffffffffff) | 0x3ff0000000000000);
-  k += static_cast<int>(b >> 52) - 1023;
-  // m in [1/sqrt 2, sqrt 2]
+  const double m = from_bits((b & 0xfffffffffffff) | 0x3ff0000000000000);
   const bool high = (b & 0xfffffffffffff) > 0x6a09e667f3bcc;
-  m = high ? 0.5 * m : m;
-  k += high;
-  const LogEntry& entry = table[nearest(m * 128.0).number - log_first];
-  const double upper = from_bits(bits(m) & ~0x7ffull), lower = m - upper;
-  return {k * ln_2_hi + entry.hi, k * ln_2_lo + entry.lo, fast_sum(upper * entry.inverse - 1.0, lower * entry.inverse)};
+  return {high ? 0.5 * m : m, static_cast<int>(b >> 52) - 1023 + high};
+}
+
+inline const LogEntry& entry_of(double m) { return table[nearest(m * 128.0).number - log_first]; }
+
+inline Reduced reduce(double m, double upper, double k, double inverse, double hi, double lo) {
+  const double lower = m - upper;
+  return {k * ln_2_hi + hi, k * ln_2_lo + lo, fast_sum(upper * inverse - 1.0, lower * inverse)};
+}
+
+inline double upper_of(double m) { return from_bits(bits(m) & ~0x7ffull); }
+
+inline Reduced reduce(double x) {
+  const bool is_small = x < 0x1p-1022;
+  const Split s = split(is_small ? x * 0x1p54 : x);
+  const LogEntry& entry = entry_of(s.m);
+  return reduce(s.m, upper_of(s.m), is_small ? s.k - 54 : s.k, entry.inverse, entry.hi, entry.lo);
 }
 
 // (log(1 + r) - r + r^2/2) / r^3, |r| < 2^-7
@@ -63,6 +75,25 @@ inline bool ordinary(double x) { return x > 0.0 && x < infinity; }
 }  // namespace
 
 Pair log_pair(double x) { return log_of(reduce(x)); }
+
+void log_pairs(const double (&x)[4], Pairs& result) {
+  double m[4], upper[4], k[4], inverse[4], hi[4], lo[4];
+  for (int i = 0; i < 4; ++i) {
+    const Split s = split(x[i]);
+    const LogEntry& entry = entry_of(s.m);
+    m[i] = s.m;
+    upper[i] = upper_of(s.m);
+    k[i] = s.k;
+    inverse[i] = entry.inverse;
+    hi[i] = entry.hi;
+    lo[i] = entry.lo;
+  }
+  for (int i = 0; i < 4; ++i) {
+    const Pair l = log_of(reduce(m[i], upper[i], k[i], inverse[i], hi[i], lo[i]));
+    result.hi[i] = l.hi;
+    result.lo[i] = l.lo;
+  }
+}
 
 Pair log_pair(Pair x) {
   const double l = x.lo / x.hi;

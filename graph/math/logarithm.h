@@ -8,6 +8,8 @@ namespace jarol::math {
 
 // relative error below 2^-67 for finite x > 0
 Pair log_pair(double x);
+// of four normal x > 0, each to the same bits
+void log_pairs(const double (&x)[4], Pairs& result);
 // of x.hi + x.lo; absolute error besides x.lo / x.hi's own below 2^-100 near 1
 Pair log_pair(Pair x);
 

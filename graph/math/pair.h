@@ -8,6 +8,11 @@ struct Pair {
   double hi, lo;
 };
 
+// four of them, for loops whose turns go side by side
+struct Pairs {
+  double hi[4], lo[4];
+};
+
 // a + b exactly, for |a| >= |b| or a = 0
 constexpr Pair fast_sum(double a, double b) {
   const double s = a + b;

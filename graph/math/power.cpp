@@ -2,6 +2,7 @@
 #include "graph/math/exponential.h"
 #include "graph/math/functions.h"
 #include "graph/math/logarithm.h"
+#include "graph/math/powers.h"
 
 namespace jarol::math {
 namespace {
@@ -39,6 +40,33 @@ inline double power(double x, double y, double sign) {
 }
 
 }  // namespace
+
+std::array<double, 4> pow_each(const std::array<double, 4>& x, double y) {
+  const double size = magnitude(y);
+  double a[4], result[4];
+  bool is_ordinary = size >= 0x1p-70 && size < 0x1p900 && y != 2.0;
+  for (int i = 0; i < 4; ++i) {
+    a[i] = x[static_cast<std::size_t>(i)];
+    is_ordinary &= a[i] >= 0x1p-1022 && a[i] < infinity && a[i] != 1.0;
+  }
+  if (is_ordinary) [[likely]] {
+    Pairs l;
+    log_pairs(a, l);
+    bool is_small = true;
+    for (int i = 0; i < 4; ++i) is_small &= magnitude(y * l.hi[i]) < 700.0;
+    for (int i = 0; i < 4; ++i) {
+      const Pair z = Pair{l.hi[i], l.lo[i]} * y;
+      l.hi[i] = z.hi;
+      l.lo[i] = z.lo;
+    }
+    if (is_small) [[likely]] {
+      exp_rounded(l, result);
+      return {result[0], result[1], result[2], result[3]};
+    }
+  }
+  return {pow(x[0], y), pow(x[1], y), pow(x[2], y), pow(x[3], y)};
+}
+
 }  // namespace jarol::math
 
 using namespace jarol::math;

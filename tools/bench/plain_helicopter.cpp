@@ -14,7 +14,7 @@ vehicles::fossen::Vector3 plain(const Vector3d& v) { return {v[0], v[1], v[2]}; 
 PlainHelicopter::PlainHelicopter(const vehicles::HelicopterParameters& parameters, double height)
     : body_(vehicles::make_body(parameters)) {
   const double part = body_.mass * body_.gravity / (4 * body_.full_thrust);
-  input_.from.fill(std::pow(part, 1 / body_.thrust_law[0].exponent()));
+  input_.from.fill(std::pow(part, 1 / body_.thrust_law.exponent()));
   input_.to = input_.from;
   state_.setZero();
   state_[2] = -height;

@@ -1,13 +1,14 @@
 #include "vehicles/helicopter/battery.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "graph/math/powers.h"
 
 namespace jarol::vehicles {
 
 double Battery::calc_current(const std::array<double, 4>& thrusts) const {
   double sum = 0.0;
-  for (const double part : thrusts) sum += std::pow(part, parameters_.current_exponent);
+  for (const double part : math::pow_each(thrusts, parameters_.current_exponent)) sum += part;
   return parameters_.electronics + 0.25 * parameters_.full_current * sum;
 }
 

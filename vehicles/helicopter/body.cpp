@@ -46,15 +46,16 @@ fossen::Vector6 calc_loads(const HelicopterBody& body, const HelicopterMotion& m
   Vector3 moment{};
 
   RotorVectors hub_b;
-  Rotors sense, free_thrust, exponent;
+  Rotors sense;
   const Rotors change = (of_each(input.from) - of_each(input.to)) * remaining;
   const Rotors setting = of_each(input.to) + change;
+  // far from the ground and in air at rest
+  const ThrustLaw& law = body.thrust_law;
+  const Rotors free_thrust = body.full_thrust * of_each(law.parts({setting[0], setting[1], setting[2], setting[3]}));
   for (Eigen::Index i = 0; i < sense.size(); ++i) {
     const auto rotor = static_cast<std::size_t>(i);
     for (std::size_t axis = 0; axis < 3; ++axis) hub_b[axis][i] = body.rotors[rotor].hub_b[axis];
     sense[i] = body.rotors[rotor].spin;
-    exponent[i] = body.thrust_law[rotor].exponent();
-    free_thrust[i] = calc_thrust(body, rotor, setting[i]);
   }
   const Rotors height = -(motion.p_n[2] + (down_b[0] * hub_b[0] + down_b[1] * hub_b[1] + down_b[2] * hub_b[2]));
   const Rotors thrust = free_thrust * ground_gain(body, height);
@@ -62,7 +63,7 @@ fossen::Vector6 calc_loads(const HelicopterBody& body, const HelicopterMotion& m
   // thrust grows with speed squared; its power law has no slope at rest, where nothing turns anyway
   const Rotors speed = body.full_speed * (free_thrust / body.full_thrust).sqrt();
   const Rotors spins = sense * body.rotor_inertia * speed;  // angular momenta along z, and their rates
-  const Rotors spin_dots = -(spins * 0.5 * exponent / setting.max(0.02) * change / body.lag);
+  const Rotors spin_dots = -(spins * 0.5 * law.exponent() / setting.max(0.02) * change / body.lag);
 
   // blades resist flow in their plane and along their axis in proportion to their speed
   RotorVectors flow = cross(motion.omega_b, hub_b);

@@ -35,7 +35,7 @@ struct HelicopterBody {
   };
   std::array<Rotor, 4> rotors{};
   double full_thrust = 1.0;
-  std::array<ThrustLaw, 4> thrust_law{};  // each knows the settings that its own rotor had last
+  ThrustLaw thrust_law{};  // knows the settings that the rotors had last
   double lag = 0.05;
   double torque_per_thrust = 0.0;
   double rotor_inertia = 0.0;
@@ -70,11 +70,6 @@ inline double calc_remaining(const HelicopterBody& body, double seconds) {
 /// which a payload takes its share.
 fossen::Vector6 calc_loads(const HelicopterBody& body, const HelicopterMotion& motion, const HelicopterInput& input,
                            double time);
-
-/// Thrust of one rotor at a setting, far from the ground and in air at rest.
-inline double calc_thrust(const HelicopterBody& body, std::size_t rotor, double setting) {
-  return body.full_thrust * body.thrust_law[rotor].part(setting);
-}
 
 /// In NED axes.
 inline fossen::Vector3 to_ned(const std::array<fossen::Vector3, 3>& R_nb, const fossen::Vector3& b) {

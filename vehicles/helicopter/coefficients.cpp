@@ -66,7 +66,7 @@ HelicopterBody make_body(const HelicopterParameters& parameters) {
   const double a = rotors.arm, h = -rotors.height;
   body.rotors = {{{{a, 0.0, h}, 1.0}, {{0.0, a, h}, -1.0}, {{-a, 0.0, h}, 1.0}, {{0.0, -a, h}, -1.0}}};
   body.full_thrust = rotors.full_thrust;
-  body.thrust_law.fill(ThrustLaw(rotors.thrust_exponent));
+  body.thrust_law = ThrustLaw(rotors.thrust_exponent);
   body.lag = rotors.lag;
   body.torque_per_thrust = rotors.torque_per_thrust;
   body.rotor_inertia = rotors.inertia;

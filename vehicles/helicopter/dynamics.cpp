@@ -46,11 +46,7 @@ bool HelicopterDynamics::near_ground() const {
   return false;
 }
 
-std::array<double, 4> HelicopterDynamics::thrusts() const {
-  std::array<double, 4> parts{};
-  for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = body_.thrust_law[i].part(input_.from[i]);
-  return parts;
-}
+std::array<double, 4> HelicopterDynamics::thrusts() const { return body_.thrust_law.parts(input_.from); }
 
 void HelicopterDynamics::step(const HelicopterCommand& command) {
   if (!failure_.empty()) throw NoState(failure_);

@@ -14,6 +14,8 @@ namespace {
 
 constexpr double airborne = 0.02;  // m, of the lowest foot above the ground
 
+double yaw_of(const HelicopterMotion& motion) { return std::atan2(motion.R_nb[1][0], motion.R_nb[0][0]); }
+
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 
 }  // namespace
@@ -23,18 +25,24 @@ HelicopterJudge::HelicopterJudge(const HelicopterParameters& parameters, const H
       limits_(parameters.limits),
       upright_(std::cos(parameters.limits.tilt) + 1e-9),
       start_(start),
+      start_yaw_(yaw_of(start)),
       last_(start) {
   has_flown_ = height() > airborne;
+}
+
+void HelicopterJudge::serialize(Archive& archive) {
+  if (!is_found_) find_truth();
+  archive(start_, last_, truth_, mishap_, has_flown_, last_instant_, driven_);
+  start_yaw_ = yaw_of(start_);
 }
 
 void HelicopterJudge::find_truth() const {
   const HelicopterMotion& m = last_;
   const auto& R = m.R_nb;
-  const auto yaw_of = [](const HelicopterMotion& of) { return std::atan2(of.R_nb[1][0], of.R_nb[0][0]); };
   const fossen::Vector3 v_n = to_ned(R, m.v_b);
   truth_.roll = std::atan2(R[2][1], R[2][2]);
   truth_.pitch = -std::asin(std::clamp(R[2][0], -1.0, 1.0));
-  truth_.yaw = std::remainder(yaw_of(m) - yaw_of(start_), 2.0 * std::numbers::pi);
+  truth_.yaw = std::remainder(yaw_of(m) - start_yaw_, 2.0 * std::numbers::pi);
   truth_.x = m.p_n[0] - start_.p_n[0];
   truth_.y = m.p_n[1] - start_.p_n[1];
   truth_.altitude = start_.p_n[2] - m.p_n[2];

@@ -26,10 +26,7 @@ class HelicopterJudge {
   /// As of a vehicle.
   std::string unrest() const;
 
-  void serialize(Archive& archive) {
-    if (!is_found_) find_truth();
-    archive(start_, last_, truth_, mishap_, has_flown_, last_instant_, driven_);
-  }
+  void serialize(Archive& archive);
 
  private:
   void find_truth() const;
@@ -41,6 +38,7 @@ class HelicopterJudge {
   LimitParameters limits_;
   double upright_;  // cosine of a tilt that is surely within its limit
   HelicopterMotion start_;
+  double start_yaw_;
   HelicopterMotion last_;
   mutable HelicopterTruth truth_;  // its impact always, the rest where it is found
   mutable bool is_found_ = false;

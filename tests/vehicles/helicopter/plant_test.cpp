@@ -144,7 +144,7 @@ TEST_SUITE("vehicles/helicopter_plant") {
     HelicopterMotion start = high(500);
     start.omega_b = {1, 0, 0};
     Plant plant(body, start, {0.5, 0.5, 0.5, 0.5});
-    const double spin = 4 * body.rotor_inertia * body.full_speed * std::pow(0.5, body.thrust_law[0].exponent() / 2);
+    const double spin = 4 * body.rotor_inertia * body.full_speed * std::pow(0.5, body.thrust_law.exponent() / 2);
     const auto momentum = [&] {
       const HelicopterMotion m = plant.motion();
       const fossen::Vector3 L = to_ned(m.R_nb, {body.inertia[0] * m.omega_b[0], body.inertia[1] * m.omega_b[1],
