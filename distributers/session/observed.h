@@ -21,7 +21,7 @@ struct Place {
   const Type* type = nullptr;
 };
 
-/// Called by the recorder's thread; asked while that has nothing to hand on.
+/// Called by its recorder; asked while that has nothing to hand on.
 class Observed : public RecordSink {
  public:
   /// `outputs`: those of the graph's plan.

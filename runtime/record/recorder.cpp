@@ -89,7 +89,7 @@ void Recorder::append_large(Duration instant, std::uint32_t output, const void* 
   if (is_cut_off_) return lost_values_.add(instant, output);
   const std::size_t bytes = sizeof(RecordHeader) + ((size + 7U) & ~std::size_t{7});
   std::byte* const room = large_.room(written_.load(std::memory_order_relaxed) % chunks, bytes, [this] {
-    if (waits_) catch_up();
+    if (waits_) wait_for_sinks();
     return waits_;
   });
   if (room == nullptr) return lose(instant, output, size, "there was no memory to record it");
@@ -137,15 +137,26 @@ void Recorder::note_direct_failure() {
   } catch (...) { failures_.note(carrying_); }
 }
 
+// To wake the thread that drains and to wait for it takes longer than to drain what a short run has published.
 void Recorder::catch_up() {
+  pause_direct();
+  if (used_ > 0) next_chunk();
+  for (bool drained = true; drained;) drained = drain_next();
+  note_direct_failure();
+}
+
+void Recorder::wait_for_sinks() {
   pause_direct();
   if (used_ > 0) next_chunk();
   const std::uint64_t written = written_.load(std::memory_order_relaxed);
   if (read_.load(std::memory_order_acquire) < written) bell_.ring();
-  for (std::uint64_t read = read_.load(std::memory_order_acquire); read < written;
-       read = read_.load(std::memory_order_acquire))
-    read_.wait(read, std::memory_order_acquire);
+  wait_until_read(written);
   note_direct_failure();
+}
+
+void Recorder::wait_until_read(std::uint64_t count) {
+  for (std::uint64_t read = 0; (read = read_.load(std::memory_order_acquire)) < count;)
+    read_.wait(read, std::memory_order_acquire);
 }
 
 std::string Recorder::why_not_all(const RecordSink& sink) const {
@@ -199,10 +210,9 @@ void Recorder::next_chunk() {
   }
   publish_chunk();
   const std::uint64_t next = written_.load(std::memory_order_relaxed);
-  std::uint64_t read = read_.load(std::memory_order_acquire);
+  const std::uint64_t read = read_.load(std::memory_order_acquire);
   if (next - read >= chunks / 2) bell_.ring_if_asleep();
-  for (; next - read >= chunks; read = read_.load(std::memory_order_acquire))
-    read_.wait(read, std::memory_order_acquire);
+  if (next - read >= chunks) wait_until_read(next - chunks + 1);
   now_ = memory_.get() + (next % chunks) * chunk_bytes;
 }
 
@@ -215,22 +225,29 @@ void Recorder::cut_off() {
   is_cut_off_ = true;
 }
 
+// False: all that was handed on is drained, whoever did it.
+bool Recorder::drain_next() {
+  const std::lock_guard lock(draining_);
+  const std::uint64_t read = read_.load(std::memory_order_relaxed);
+  if ((written_.load(std::memory_order_acquire) & ~ended) == read) return false;
+  const std::size_t chunk = read % chunks, bytes = bytes_[chunk];
+  others_.take(bytes > chunk_bytes ? large_.at(chunk) : memory_.get() + chunk * chunk_bytes, bytes);
+  read_.store(read + 1, std::memory_order_release);
+  read_.notify_one();
+  return true;
+}
+
 void Recorder::run() {
-  std::uint64_t read = 0;
-  while (true) {
+  for (bool has_ended = false; !has_ended;) {
     const std::uint32_t rings = bell_.rings();
+    const bool ends = (written_.load(std::memory_order_acquire) & ended) != 0;
     const bool has_carried = carrying_ != nullptr && carrying_->carry();
-    const std::uint64_t written = written_.load(std::memory_order_acquire);
-    if ((written & ~ended) == read) {
-      if ((written & ended) != 0) break;
-      has_carried ? bell_.stay_awake() : bell_.sleep(rings);
-      continue;
-    }
-    bell_.stay_awake();
-    const std::size_t chunk = read % chunks, bytes = bytes_[chunk];
-    others_.take(bytes > chunk_bytes ? large_.at(chunk) : memory_.get() + chunk * chunk_bytes, bytes);
-    read_.store(++read, std::memory_order_release);
-    read_.notify_one();
+    if (drain_next() || has_carried)
+      bell_.stay_awake();
+    else if (ends)
+      has_ended = true;
+    else
+      bell_.sleep(rings);
   }
   others_.finish(lost_values_);
   note_direct_failure();

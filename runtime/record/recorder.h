@@ -9,6 +9,7 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -71,8 +72,11 @@ class Recorder {
   }
   /// How much time may go by until what little there is, is handed on.
   Duration hand_on_period() const { return hand_on_period_; }
-  /// Hands on what was appended so far and waits until the sinks have it, but for what is held for its order.
+  /// The sinks have what was appended so far, but for what is held for its order. The calling thread calls them, unless
+  /// the recorder's is about to.
   void catch_up();
+  /// The same, but the recorder's thread calls them: where the calling one may have no memory, as in an instant.
+  void wait_for_sinks();
   /// Throws the first that a sink has thrown by then. After `catch_up`.
   void rethrow_failure() const { failures_.rethrow_first(); }
   /// The first that was not recorded, and why, which `close` throws; empty: all was.
@@ -128,7 +132,9 @@ class Recorder {
   void next_chunk();
   [[gnu::cold]] void cut_off();
   void publish_chunk();
+  void wait_until_read(std::uint64_t count);
   void run();
+  bool drain_next();
   static DirectSink* take_direct(std::vector<RecordSink*>& sinks);
 
   SinkFailures failures_;
@@ -150,6 +156,7 @@ class Recorder {
   bool waits_ = true;
   bool is_cut_off_ = false;                // nothing is handed on any more
   std::atomic<std::uint64_t> written_{0};  // chunks handed on; the top bit says that no more will come
+  std::mutex draining_;                    // whoever drains a chunk has it
   std::atomic<std::uint64_t> read_{0};     // chunks drained
   Bell bell_;                              // of the thread that drains
   std::exception_ptr direct_failure_;      // of the one that takes directly, until it is noted with the others

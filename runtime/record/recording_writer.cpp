@@ -94,7 +94,7 @@ void RecordingWriter::open() {
 }
 
 void RecordingWriter::add_checkpoint(Duration instant, std::string_view bytes) {
-  recorder_->catch_up();
+  recorder_->wait_for_sinks();
   recorder_->rethrow_failure();
   const SavedState state{String(bytes)};
   inputs_->append_beside(checkpoint_topic, instant, &state);

@@ -29,7 +29,8 @@ struct Loss {
 
 class DirectSink;
 
-/// All is called on the recorder's thread, in the order in which it took place.
+/// All is called in the order in which it took place, one call after the other: on the recorder's thread, or on one
+/// that waits for the sinks to have all.
 class RecordSink {
  public:
   virtual ~RecordSink() = default;

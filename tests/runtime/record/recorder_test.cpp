@@ -31,8 +31,8 @@ struct Full : RecordSink {
   void finish() override {}
 };
 
-void append(Recorder& recorder, std::int64_t count) {
-  for (std::int64_t i = 0; i < count; ++i) {
+void append(Recorder& recorder, std::int64_t count, std::int64_t from = 0) {
+  for (std::int64_t i = from; i < count; ++i) {
     const double number = static_cast<double>(i) / 3;
     recorder.append(Duration(i), static_cast<std::uint32_t>(i % 7), &number, sizeof number);
   }
@@ -92,6 +92,29 @@ TEST_SUITE("runtime/recorder") {
     CHECK(sink.count == 10);
     recorder.close();
     CHECK(sink.count == 10);
+  }
+
+  TEST_CASE("whoever waits for the sinks calls them itself, in order, beside the thread of the recorder") {
+    struct Threads : Collect {
+      void take(Duration instant, std::uint32_t output, const void* value) override {
+        Collect::take(instant, output, value);
+        last = std::this_thread::get_id();
+      }
+      std::thread::id last;
+    } sink;
+    Recorder recorder({&sink});
+    int called_here = 0;
+    for (std::int64_t end = 0; end < 400'000; recorder.catch_up()) {
+      CHECK(sink.count == end);
+      if (end > 0 && sink.last == std::this_thread::get_id()) ++called_here;
+      const std::int64_t begin = end;
+      end += begin % 3 == 0 ? 40 : 20'000;
+      append(recorder, end, begin);
+    }
+    CHECK(called_here > 0);
+    CHECK(sink.in_order);
+    recorder.close();
+    CHECK(sink.finished);
   }
 
   TEST_CASE("a recorder without values closes too") {
