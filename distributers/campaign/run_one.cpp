@@ -10,8 +10,6 @@
 
 namespace jarol::campaign {
 
-constinit thread_local std::atomic<std::int64_t> running_run{no_run};
-
 namespace {
 
 constexpr std::array<const char*, 5> words{"good", "bad", "fault", "lost", "refused"};

@@ -9,7 +9,7 @@ namespace jarol::campaign {
 
 inline constexpr std::int64_t no_run = -1;
 
-extern constinit thread_local std::atomic<std::int64_t> running_run;
+inline constinit thread_local std::atomic<std::int64_t> running_run{no_run};
 
 /// The calling thread does that run while this lives.
 class RunningRun {

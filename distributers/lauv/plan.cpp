@@ -13,7 +13,7 @@ namespace imc = messages::imc;
 namespace {
 
 constexpr std::size_t max_maneuvers = 1000;
-constexpr std::size_t max_legs = 10'000;  // looked through each second, for the time that is left
+constexpr std::size_t max_plan_legs = 10'000;  // looked through each second, for the time that is left
 
 [[noreturn]] void refuse_plan(const std::string& text) { throw std::invalid_argument(text); }
 
@@ -92,7 +92,8 @@ Plan make_plan(const imc::PlanSpecification& plan, const Origin& origin, const F
     } catch (const std::invalid_argument& error) { refuse_plan(fmt::format("maneuver '{}': {}", name, error.what())); }
     made.maneuvers.back().name = name;
     legs += made.maneuvers.back().legs.size();
-    if (legs > max_legs) refuse_plan(fmt::format("the plan has more than {} lines, circles and the like", max_legs));
+    if (legs > max_plan_legs)
+      refuse_plan(fmt::format("the plan has more than {} lines, circles and the like", max_plan_legs));
   }
   made.next.resize(made.maneuvers.size());
   made.start = find(made, plan.start_man_id.view(), "the start");

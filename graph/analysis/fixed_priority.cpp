@@ -8,8 +8,8 @@ namespace jarol::analysis {
 namespace {
 
 constexpr std::int64_t far = std::int64_t{1} << 61;
-constexpr std::uint64_t max_steps = 2'000'000'000;  // of all tasks together
-constexpr std::int64_t max_in_period = 1'000'000;   // of one task in a busy period
+constexpr std::uint64_t max_steps_of_all = 2'000'000'000;  // of all tasks together
+constexpr std::int64_t max_in_period = 1'000'000;          // of one task in a busy period
 
 // What more urgent tasks need, those of equal period and jitter together.
 class Interference {
@@ -123,7 +123,7 @@ std::vector<std::optional<std::int64_t>> responses_of(std::span<const TaskModel>
 
 std::vector<std::optional<std::int64_t>> fixed_priority_responses(std::span<const TaskModel> models, bool preemptive,
                                                                   Budget& budget) {
-  return within(budget, max_steps, [&](Budget& own) { return responses_of(models, preemptive, own); });
+  return within(budget, max_steps_of_all, [&](Budget& own) { return responses_of(models, preemptive, own); });
 }
 
 }  // namespace jarol::analysis

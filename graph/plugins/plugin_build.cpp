@@ -6,7 +6,7 @@ namespace jarol {
 namespace {
 
 // What has another size for reasons that have no name here.
-struct Layout {
+struct BuildLayout {
   std::int32_t theirs, ours;
   const char* of;
 };
@@ -20,7 +20,7 @@ std::string find_difference(const PluginBuild& plugin, const PluginBuild& progra
   const std::string_view by(plugin.compiler, strnlen(plugin.compiler, sizeof plugin.compiler));
   if (by != program.compiler) return "by " + std::string(by) + ", this program by " + program.compiler;
   if (std::string option = find_other_switch(plugin.options, program.options); !option.empty()) return option;
-  const Layout layouts[] = {
+  const BuildLayout layouts[] = {
       {plugin.options.long_double, program.options.long_double, "a long double"},
       {plugin.options.wide_char, program.options.wide_char, "a wchar_t"},
       {plugin.eigen_alignment, program.eigen_alignment,
@@ -31,7 +31,7 @@ std::string find_difference(const PluginBuild& plugin, const PluginBuild& progra
       {plugin.string, program.string, "a string"},
       {plugin.registry, program.registry, "the registry"},
   };
-  for (const Layout& layout : layouts)
+  for (const BuildLayout& layout : layouts)
     if (layout.theirs != layout.ours)
       return std::string("with options that give ") + layout.of + " " + std::to_string(layout.theirs) +
              " bytes instead of " + std::to_string(layout.ours);

@@ -48,7 +48,7 @@ struct CheckOptions {
   bool json = false;
 };
 
-int exit_code_of(const CheckReport& report) {
+int exit_code_of_checked(const CheckReport& report) {
   const std::optional<bool> chains = chains_hold(report);
   if (report.result.verdict == Verdict::not_schedulable || chains == false || longer_than_stated(report) != nullptr)
     return exit_negative;
@@ -135,7 +135,7 @@ void check_file(const std::string& file, const CheckOptions& options, Checked& c
     }
   }
   checked.text = options.json ? json_line(to_json(report)) : to_text(report);
-  checked.exit_code = exit_code_of(report);
+  checked.exit_code = exit_code_of_checked(report);
 }
 
 // One bad file does not hide the others.

@@ -1,19 +1,12 @@
 #include "tools/commands/commands.h"
 
+#include "tools/commands/run/watch_run.h"
 #include "tools/report/command_line.h"
-#include "tools/report/version.h"
 
 namespace jarol::tools {
 
 CommandLine make_command_line(int& exit_code) {
-  CommandLine line(
-      "jarol",
-      "Jarol runs control programs that are graphs of isolated tasks: checked for schedulability, the same to the bit "
-      "every time.\n\n  jarol check specs/exolauv.yaml     can it be scheduled, and if not, why\n"
-      "  jarol run specs/exolauv.yaml       run it on the virtual clock\n"
-      "  jarol tasks                        what a graph can be made of\n"
-      "  jarol help run                     all about a command\n",
-      version_text());
+  CommandLine line = make_bare_command_line();
   add_bench(line, exit_code);
   add_campaign(line, exit_code);
   add_check(line, exit_code);
@@ -26,11 +19,13 @@ CommandLine make_command_line(int& exit_code) {
   add_messages(line, exit_code);
   add_new(line, exit_code);
   add_replay(line, exit_code);
-  add_run(line, exit_code);
+  add_run(line, exit_code, watch_run);
   add_schema(line, exit_code);
   add_tasks(line, exit_code);
   add_vehicle(line, exit_code);
   return line;
 }
+
+std::vector<std::string> unbuilt_commands() { return {}; }
 
 }  // namespace jarol::tools

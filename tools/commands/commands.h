@@ -1,13 +1,25 @@
 // The subcommands of `jarol`, a file each.
 #pragma once
 
+#include <memory>
 #include <string>
+#include <vector>
 
+#include "graph/language/duration.h"
 #include "tools/report/exit_code.h"
+
+namespace jarol {
+struct Loaded;
+}
 
 namespace jarol::tools {
 
 class CommandLine;
+class Pace;
+struct RunOptions;
+namespace console {
+class View;
+}
 
 // Each adds its subcommand; `exit_code` is what the program returns once it has run.
 void add_bench(CommandLine& line, int& exit_code);
@@ -22,12 +34,19 @@ void add_log(CommandLine& line, int& exit_code);
 void add_messages(CommandLine& line, int& exit_code);
 void add_new(CommandLine& line, int& exit_code);
 void add_replay(CommandLine& line, int& exit_code);
-void add_run(CommandLine& line, int& exit_code);
+/// Makes the page that shows a run (run/watch_run.h).
+using WatchRun = std::unique_ptr<console::View>(const RunOptions&, const Loaded&, Duration until, Pace*);
+void add_run(CommandLine& line, int& exit_code, WatchRun* watch);
 void add_schema(CommandLine& line, int& exit_code);
 void add_tasks(CommandLine& line, int& exit_code);
 void add_vehicle(CommandLine& line, int& exit_code);
 
-/// All of them.
+/// What `jarol` is, without subcommands; `more` is said about these.
+CommandLine make_bare_command_line(const std::string& more = "");
+
+/// All that are built: each of them (commands.cpp), or the first ones (first.cpp).
 CommandLine make_command_line(int& exit_code);
+/// Names of those that are not built yet.
+std::vector<std::string> unbuilt_commands();
 
 }  // namespace jarol::tools

@@ -37,6 +37,9 @@ std::vector<char*> asked_of(int argc, char** argv) {
 
 // A mistyped command gets a suggestion.
 void expect_command(const std::string& word, std::vector<std::string> names) {
+  const std::vector<std::string> unbuilt = tools::unbuilt_commands();
+  if (std::find(unbuilt.begin(), unbuilt.end(), word) != unbuilt.end())
+    throw tools::UsageError("the command '" + word + "' is not built yet; tools/build builds all commands");
   names.push_back("help");
   std::sort(names.begin(), names.end());
   if (!word.starts_with('-') && std::find(names.begin(), names.end(), word) == names.end())

@@ -27,8 +27,8 @@
 #include "tools/commands/run/prompt_line.h"
 #include "tools/commands/run/run_on_threads.h"
 #include "tools/commands/run/run_options.h"
+#include "tools/commands/run/watch_run.h"
 #include "tools/commands/run/what_if.h"
-#include "tools/console/console.h"
 #include "tools/report/command_line.h"
 #include "tools/report/duration_option.h"
 #include "tools/report/noted.h"
@@ -67,19 +67,6 @@ std::unique_ptr<Pace> pace_of(const RunOptions& options) {
   return std::make_unique<Pace>(console.pace.empty() ? std::optional(1.0) : parse_pace(console.pace));
 }
 
-// Null: nobody wants to watch.
-std::unique_ptr<console::Console> make_console(const RunOptions& options, const Loaded& loaded, Duration until,
-                                               const std::vector<const Type*>& true_types, Pace* pace) {
-  if (!options.console.wanted()) return nullptr;
-  return std::make_unique<console::Console>(
-      console::Watched{{*loaded.graph, options.file, options.clock, until, true_types,
-                        console::find_flow(*loaded.graph, loaded.known->vehicles, loaded.files),
-                        console::Given{options.file, options.overrides, options.seed}},
-                       server_of(options.console),
-                       pace,
-                       operators_at_console(loaded)});
-}
-
 // Of what was to be written, and of checkpoints and what-ifs that the run was to come to: a signal ends these with it.
 int exit_code_of_lost(bool all_written, bool none_lost) {
   if (!all_written) return exit_unfinished;
@@ -87,7 +74,7 @@ int exit_code_of_lost(bool all_written, bool none_lost) {
   return Interruptible::signal() == 0 ? int{exit_unfinished} : exit_of_signal(Interruptible::signal());
 }
 
-int run(RunOptions options) {
+int run(RunOptions options, WatchRun* watch) {
   if (options.guard) look_up_at_once();
   WhatIfs what_ifs(options.what_if);
   const std::vector<Save> saves = parse_saves(options.checkpoints.saves);
@@ -132,8 +119,8 @@ int run(RunOptions options) {
   what_ifs.add_to(looking_on);
   if (log) looking_on.push_back(log->publications());
   const std::unique_ptr<Pace> pace = pace_of(options);
-  const std::unique_ptr<console::Console> console =
-      make_console(options, loaded, end, types_of_truth(loaded), pace.get());
+  const std::unique_ptr<console::View> console =
+      options.console.wanted() ? watch(options, loaded, end, pace.get()) : nullptr;
   if (console) looking_on.push_back(&console->feed());
   RunOrigin origin = origin_of(loaded, options.overrides, options.seed);
   GraphRun graph_run(std::move(loaded),
@@ -267,7 +254,7 @@ int run(RunOptions options) {
 
 }  // namespace
 
-void add_run(CommandLine& line, int& exit_code) {
+void add_run(CommandLine& line, int& exit_code, WatchRun* watch) {
   auto options = std::make_shared<RunOptions>();
   Command* command = line.add_subcommand(
       "run",
@@ -280,9 +267,9 @@ void add_run(CommandLine& line, int& exit_code) {
       "a lost vehicle, a task that does not end or a full disk, 129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), "
       "SIGTERM");
   add_run_options(*command, *options);
-  command->callback([options, command, &exit_code] {
+  command->callback([options, command, watch, &exit_code] {
     require_effect(*command, *options);
-    exit_code = run(*options);
+    exit_code = run(*options, watch);
   });
 }
 

@@ -12,6 +12,7 @@
 #include "tools/console/pace.h"
 #include "tools/console/samples_json.h"
 #include "tools/console/server.h"
+#include "tools/console/view.h"
 
 namespace jarol::tools::console {
 
@@ -22,22 +23,17 @@ struct Watched {
   std::vector<DeskOperator> operators{};  // who are at its pages
 };
 
-class Console {
+class Console : public View {
  public:
   /// All that is named outlives it. Of each output at most so many samples go to pages in one thirtieth of a second,
   /// and no more than every so manieth.
   explicit Console(Watched watched, std::size_t max_at_once = 64, std::vector<std::uint64_t> strides = {});
 
-  /// From now on pages are served, with what came before, too. Throws where the server can't be had, or
-  /// --console-listen is wrong.
-  void open();
-  /// Once it is open.
-  const std::string& url() const { return server_->url(); }
-  /// For whoever looks on at the run.
-  Feed& feed() { return feed_; }
-
-  /// The run has ended, as these lines say.
-  void end(const std::string& text);
+  /// Throws also where --console-listen is wrong.
+  void open() override;
+  const std::string& url() const override { return server_->url(); }
+  Feed& feed() override { return feed_; }
+  void end(const std::string& text) override;
 
  private:
   std::vector<std::string> next_messages();
