@@ -204,6 +204,18 @@ TEST_SUITE("tree") {
     CHECK(tests > 200);
   }
 
+  TEST_CASE("the packages that the demo needs are among those of all that is built") {
+    std::vector<std::string> of_all;
+    std::ifstream all("tools/apt-packages.txt"), first("tools/apt-packages-first.txt");
+    for (std::string line; std::getline(all, line);) of_all.push_back(line);
+    int count = 0;
+    for (std::string line; std::getline(first, line); ++count) {
+      CAPTURE(line);
+      CHECK(std::find(of_all.begin(), of_all.end(), line) != of_all.end());
+    }
+    CHECK(count > 10);
+  }
+
   TEST_CASE("at the top stand the eight folders and a few files") {
     const std::set<std::string> expected{"graph",     "runtime", "tasks", "distributers",   "vehicles",
                                          "specs",     "tests",   "tools", "CMakeLists.txt", "CMakePresets.json",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "graph/values/heap.h"
 #include "graph/values/type_of.h"
 
 namespace jarol {
@@ -18,7 +19,12 @@ void widen(std::optional<Gap>& gap, const Gap& more) {
 RecordedStream::RecordedStream(ChunkQueue& queue, Pressure pressure, const std::vector<mcap::Schema>& schemas,
                                const std::vector<std::optional<RecordedTopic>>& topics,
                                const std::vector<RecordedTopic>& beside)
-    : queue_(queue), pressure_(pressure), chunks_([this] { return make_chunk(); }) {
+    : queue_(queue),
+      pressure_(pressure),
+      reserved_(is_needed() || std::ranges::none_of(topics, [](const auto& topic) { return topic.has_value(); })
+                    ? 0
+                    : chunk_bytes + small_chunk_bytes),
+      chunks_([this] { return make_chunk(); }) {
   std::vector<bool> described(schemas.size() + 1);
   const auto lane = [&](const RecordedTopic& topic) {
     const std::uint16_t schema = topic.channel.schema;
@@ -53,6 +59,7 @@ void RecordedStream::put(Lane& lane, Duration instant, const void* value, std::s
 }
 
 void RecordedStream::take_event(const RunEvent& event) {
+  const MemoryScope outside(nullptr);  // of a run no text would find memory
   if (beside_.empty()) return;
   RecordedEvent recorded{.kind = event.kind, .activation = event.activation};
   if (event.kind == RunEvent::Kind::fault && event.task < task_names_.size())
@@ -141,7 +148,7 @@ void RecordedStream::drop_chunk(std::uint64_t values) {
 
 ChunkQueue::ChunkPointer RecordedStream::make_chunk() {
   ChunkQueue::ChunkPointer chunk = queue_.empty_chunk();
-  if (!is_needed()) chunk->reserve(chunk_bytes + small_chunk_bytes);
+  chunk->reserve(reserved_);
   return chunk;
 }
 
@@ -150,13 +157,14 @@ bool RecordedStream::carry(bool all) {
   bool any = false;
   for (ChunkQueue::ChunkPointer* full = chunks_.full(); full != nullptr; full = chunks_.full()) {
     if (pressure_ == Pressure::drops && !all && !queue_.has_room_for((*full)->records().size())) return any;
+    const std::size_t bytes = (*full)->records().size();
     const Gap range{(*full)->start(), (*full)->end(), (*full)->messages()};
     if (failure_ == nullptr) push(*full);
     if (failure_ != nullptr) {
       widen(lost_, range);
       (*full)->clear();
     }
-    chunks_.taken();
+    chunks_.taken(bytes);
     any = true;
   }
   return any;

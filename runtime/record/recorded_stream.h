@@ -78,7 +78,8 @@ class RecordedStream final : public DirectSink {
 
   ChunkQueue& queue_;
   const Pressure pressure_;
-  std::vector<Lane> lanes_;  // per output
+  const std::size_t reserved_;  // bytes of memory that a chunk has from the start
+  std::vector<Lane> lanes_;     // per output
   std::vector<Lane> beside_;
   std::vector<std::string> task_names_;
   Bell* bell_ = nullptr;  // null: one thread fills chunks and carries them

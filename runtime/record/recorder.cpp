@@ -14,7 +14,7 @@ constexpr std::uint64_t ended = std::uint64_t{1} << 63;
 
 Recorder::Recorder(std::vector<RecordSink*> sinks, Duration hand_on_period)
     : carrying_(take_direct(sinks)),
-      direct_(carrying_),
+      direct_(carrying_.load(std::memory_order_relaxed)),
       others_(std::move(sinks), failures_),
       hand_on_period_(hand_on_period),
       memory_(make_large_zeros(chunk_bytes * chunks)),
@@ -50,6 +50,7 @@ void Recorder::expect(const std::vector<Output>& outputs) {
 void Recorder::put_in_order(Duration longest) {
   others_.put_in_order(longest);
   if (direct_ == nullptr) return;
+  carrying_.store(nullptr, std::memory_order_release);
   direct_->take_directly(nullptr);
   others_.add(std::exchange(direct_, nullptr));
   find_wanted();
@@ -102,16 +103,21 @@ void Recorder::append_large(Duration instant, std::uint32_t output, const void* 
 }
 
 void Recorder::lose_too_large(Duration instant, std::uint32_t output, std::size_t size) {
-  lose(instant, output, size, "values of up to " + std::to_string(max_bytes) + " can be recorded");
   too_large_values_.add(instant, output);
-  if (too_large_.empty()) too_large_ = lost_;
+  const std::string why = "values of up to " + std::to_string(max_bytes) + " can be recorded";
+  if (too_large_.empty()) too_large_ = loss_text(instant, output, size, why);
+  lose(instant, output, size, why);
 }
 
 void Recorder::lose(Duration instant, std::uint32_t output, std::size_t size, const std::string& why) {
   lost_values_.add(instant, output);
-  if (!lost_.empty()) return;
-  lost_ = "output '" + outputs_[output].name + "' had " + std::to_string(size) + " bytes at " +
-          std::to_string(instant.count()) + "ns; " + why;
+  if (lost_.empty()) lost_ = loss_text(instant, output, size, why);
+}
+
+std::string Recorder::loss_text(Duration instant, std::uint32_t output, std::size_t size,
+                                const std::string& why) const {
+  return "output '" + outputs_[output].name + "' had " + std::to_string(size) + " bytes at " +
+         std::to_string(instant.count()) + "ns; " + why;
 }
 
 void Recorder::pause_direct() {
@@ -124,7 +130,7 @@ void Recorder::pause_direct() {
 // It gets nothing more, nor is it asked to finish.
 void Recorder::fail_directly() {
   direct_failure_ = std::current_exception();
-  direct_ = nullptr;
+  failed_directly_ = std::exchange(direct_, nullptr);
   for (std::uint8_t& by : wanted_) by &= by_ring;
   wanted_beside_ &= by_ring;
 }
@@ -134,7 +140,7 @@ void Recorder::note_direct_failure() {
   if (!direct_failure_) return;
   try {
     std::rethrow_exception(std::exchange(direct_failure_, nullptr));
-  } catch (...) { failures_.note(carrying_); }
+  } catch (...) { failures_.note(failed_directly_); }
 }
 
 // To wake the thread that drains and to wait for it takes longer than to drain what a short run has published.
@@ -241,7 +247,8 @@ void Recorder::run() {
   for (bool has_ended = false; !has_ended;) {
     const std::uint32_t rings = bell_.rings();
     const bool ends = (written_.load(std::memory_order_acquire) & ended) != 0;
-    const bool has_carried = carrying_ != nullptr && carrying_->carry();
+    DirectSink* const carrying = carrying_.load(std::memory_order_acquire);
+    const bool has_carried = carrying != nullptr && carrying->carry();
     if (drain_next() || has_carried)
       bell_.stay_awake();
     else if (ends)

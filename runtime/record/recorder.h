@@ -37,7 +37,7 @@ class Recorder {
   void expect(const std::vector<Output>& outputs);
 
   /// Sinks get values in order of instants though they may be appended out of order, up to that long after a later one.
-  /// Before the first value, and before what will be recorded is known or after that.
+  /// Before the first value, and before or after `expect`.
   void put_in_order(Duration longest);
 
   /// Values up to this size can be recorded, a mebibyte less than a chunk of a recording may have. A larger one is
@@ -128,6 +128,7 @@ class Recorder {
   }
   [[gnu::cold]] void append_large(Duration instant, std::uint32_t output, const void* value, std::size_t size);
   void lose(Duration instant, std::uint32_t output, std::size_t size, const std::string& why);
+  std::string loss_text(Duration instant, std::uint32_t output, std::size_t size, const std::string& why) const;
   void lose_too_large(Duration instant, std::uint32_t output, std::size_t size);
   void next_chunk();
   [[gnu::cold]] void cut_off();
@@ -138,8 +139,9 @@ class Recorder {
   static DirectSink* take_direct(std::vector<RecordSink*>& sinks);
 
   SinkFailures failures_;
-  DirectSink* const carrying_;  // what it takes directly the thread that drains carries on
-  DirectSink* direct_;          // the same while it takes directly
+  std::atomic<DirectSink*> carrying_;  // what it takes directly the thread that drains carries on
+  DirectSink* direct_;                 // the same until it fails
+  const DirectSink* failed_directly_ = nullptr;
   FedSinks others_;
   const Duration hand_on_period_;
   std::vector<Output> outputs_;

@@ -50,15 +50,16 @@ class RecordSink {
   virtual void finish() = 0;
 };
 
-/// A sink that can take what comes directly from the thread that publishes, where it neither locks nor calls the system
-/// as long as the recorder's thread keeps up: what it makes of a value is then the only copy.
+/// A sink that can take what comes directly from the thread that publishes, where there is no heap, and where it
+/// neither locks nor calls the system as long as the recorder's thread keeps up and values are not large: what it makes
+/// of a value is then the only copy.
 class DirectSink : public RecordSink {
  public:
   DirectSink* direct() override { return this; }
   /// From now on `take`, `take_event` and `pause` are called by the thread that publishes, and the bell wakes the
   /// recorder's; null: it is a sink as any other. Before the first value.
   virtual void take_directly(Bell* bell) = 0;
-  /// On the recorder's thread, often: hands on what was taken; false: there was nothing.
+  /// On the recorder's thread, often: hands on what was taken; false: there was nothing. Throws nothing.
   virtual bool carry() = 0;
 };
 

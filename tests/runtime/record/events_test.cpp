@@ -1,6 +1,12 @@
 // What those who look on at a run see beside publications.
 #include <doctest/doctest.h>
+#include <unistd.h>
 
+#include <filesystem>
+
+#include "runtime/execute/log_end.h"
+#include "runtime/record/recorded_run.h"
+#include "runtime/record/recording_writer.h"
 #include "tests/runtime/trace_of.h"
 
 namespace {
@@ -53,6 +59,27 @@ TEST_SUITE("runtime/events") {
     CHECK(std::count_if(seen.lines.begin(), seen.lines.end(), [](const std::string& l) {
             return l.find(" task 1 ") != std::string::npos;
           }) == static_cast<std::ptrdiff_t>(report.fault_count));
+  }
+
+  TEST_CASE("a recording has each fault of a run, and what is published before it and after it") {
+    const Graph graph = tests::graph_of(text);
+    const std::string path =
+        std::filesystem::temp_directory_path() / ("events_" + std::to_string(::getpid()) + ".mcap");
+    RecordingWriter writer(path, {.graph = "t", .file = "", .overrides = {}, .clock = "virtual", .what = "all"}, {},
+                           graph);
+    writer.open();
+    Recorder recorder({writer.publications()});
+    Executor executor(graph, {}, {.recorder = &recorder, .log = writer.recorder()});
+    executor.run_until(100ms);
+    recorder.close();
+    const Report& report = executor.report();
+    writer.close(log_end_of(report));
+    const RecordedRun run(path);
+    std::filesystem::remove(path);
+    REQUIRE(report.fault_count > 1);
+    CHECK(run.gaps().empty());
+    CHECK(run.recording().find("jarol/events")->messages == report.fault_count);
+    CHECK(run.recording().find("a.out")->messages == 10);
   }
 
   TEST_CASE("what no sink wants is not recorded, and what one wants comes to all") {
