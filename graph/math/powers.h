@@ -5,7 +5,7 @@
 
 namespace jarol::math {
 
-/// Takes half as long as four calls.
+/// Side by side, where all are normal numbers above zero and no power is near the limits; else by four calls.
 std::array<double, 4> pow_each(const std::array<double, 4>& x, double y);
 
 }  // namespace jarol::math

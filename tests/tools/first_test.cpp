@@ -24,9 +24,14 @@ TEST_SUITE("tools/first") {
       CAPTURE(arguments);
       const Result first = run_first(arguments), whole = command::run_jarol(arguments);
       CHECK(first.exit_code == 0);
-      if (!has(arguments, "run")) CHECK(first.output == whole.output);
+      if (!has(arguments, "run")) {
+        CHECK(first.output == whole.output);
+        continue;
+      }
+      // the time that it took differs
       const std::size_t digest = first.output.find("\"digest\"");
-      if (digest != std::string::npos) CHECK(has(whole.output, first.output.substr(digest, 32)));
+      REQUIRE(digest != std::string::npos);
+      CHECK(has(whole.output, first.output.substr(digest, 32)));
     }
   }
 

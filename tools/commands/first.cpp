@@ -1,4 +1,4 @@
-// The commands that tools/demo builds, in a third of the time that all take. tools/build builds the others.
+// The commands that tools/demo builds, in two thirds of the time that all take. tools/build builds the others.
 #include <stdexcept>
 
 #include "tools/commands/commands.h"
