@@ -9,6 +9,7 @@ namespace jarol {
 
 Layout::Layout(const Graph& graph, const std::vector<std::uint32_t>& order, Spacing of)
     : spacing(of), tasks(graph.tasks.size()), communicators(graph.communicators.size()) {
+  const std::size_t nothing = spacing == Spacing::lines ? place(1, 1) : 0;  // of all tasks without parameters
   for (const std::uint32_t i : order) {
     if (spacing == Spacing::pages) {
       place_apart(graph, i);
@@ -17,9 +18,11 @@ Layout::Layout(const Graph& graph, const std::vector<std::uint32_t>& order, Spac
     const TaskClass& c = *graph.tasks[i].task_class;
     place(0, line);
     tasks[i].in = place(*c.in);
-    tasks[i].parameters = place(*c.parameters);
     tasks[i].state = place(*c.state);
     if (!has_let_doubles(graph.tasks[i])) tasks[i].out = place(*c.out);
+    // last: values of whole cache lines stay in line
+    const bool empty = c.parameters->fields.empty() && c.parameters->size == 1;
+    tasks[i].parameters = empty ? nothing : place(*c.parameters);
   }
   place_let_doubles(graph, order);
   for (std::size_t i = 0; i < communicators.size(); ++i) {

@@ -11,8 +11,13 @@ namespace jarol {
 /// Copies to all readers, `AtOnce` or later; returns the digest's part of the publications, if asked for.
 template <bool Digest, bool AtOnce = false>
 [[gnu::always_inline]] inline std::uint64_t make_visible(const Publish& what, std::uint64_t digest_term) {
+  constexpr std::uint32_t many = 8;  // so that a call is worth its while
   std::uint64_t digest = 0;
-  for (const Copy& c : what.copies) transfer<AtOnce>(c);
+  if (what.copies.count < many) [[likely]] {
+    for (const Copy& c : what.copies) transfer<AtOnce>(c);
+  } else {
+    transfer_all(what.copies);
+  }
   if constexpr (Digest)
     for (const Publication& p : what.publications)
       digest += digest::publication(p.name_hash, digest_term, p.hash_words(p.value));

@@ -5,6 +5,7 @@
 
 #include "graph/values/heap.h"
 #include "runtime/machine/copy_fresh.h"
+#include "runtime/machine/wide.h"
 #include "runtime/state/actions.h"
 
 namespace jarol {
@@ -46,5 +47,8 @@ template <bool AtOnce = false>
     default: std::memcpy(c.to, c.from, c.size);
   }
 }
+
+/// The same for many.
+void transfer_all(const ShortRange<Copy>& copies, bool wide = has_wide_vectors);
 
 }  // namespace jarol

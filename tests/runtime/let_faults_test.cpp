@@ -1,7 +1,10 @@
 // Outputs of LET tasks are looked at together at the ends of their LETs.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
+#include <span>
 #include <stdexcept>
 
 #include "runtime/dispatch/finite.h"
@@ -152,20 +155,23 @@ TEST_SUITE("runtime/let_faults") {
   }
 
   TEST_CASE("numbers are surely finite unless one is not, wherever it stands, or their sum is too great") {
-    for (const std::ptrdiff_t count : {8, 16, 24, 64, 72}) {
-      std::vector<double> numbers(static_cast<std::size_t>(count), -1.0);
-      const double* const last = numbers.data() + count;
-      CHECK(are_surely_finite(numbers.data(), last));
-      for (double& number : numbers)
-        for (const double other : {infinity, -infinity, not_a_number}) {
-          const double before = std::exchange(number, other);
-          CHECK_FALSE(are_surely_finite(numbers.data(), last));
-          number = before;
-        }
-      numbers[0] = numbers[1] = -greatest;
-      CHECK_FALSE(are_surely_finite(numbers.data(), last));
-      numbers[1] = greatest;
-      CHECK(are_surely_finite(numbers.data(), last));
-    }
+    for (const bool wide : {false, has_wide_vectors})
+      for (const std::size_t count : {8, 16, 24, 64, 72}) {
+        alignas(64) std::array<double, 72> room{};
+        const std::span<double> numbers(room.data(), count);
+        std::fill(numbers.begin(), numbers.end(), -1.0);
+        const auto are_finite = [&] { return are_surely_finite(room.data(), room.data() + count, wide); };
+        CHECK(are_finite());
+        for (double& number : numbers)
+          for (const double other : {infinity, -infinity, not_a_number}) {
+            const double before = std::exchange(number, other);
+            CHECK_FALSE(are_finite());
+            number = before;
+          }
+        numbers[0] = numbers[1] = -greatest;
+        CHECK_FALSE(are_finite());
+        numbers[1] = greatest;
+        CHECK(are_finite());
+      }
   }
 }
