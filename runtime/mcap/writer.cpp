@@ -112,7 +112,10 @@ void Writer::write(const Chunk& chunk) {
   count(index_.records(), crc32(index_.records()));
   file_.append(waiting_, stored, index_.records());
   waiting_.clear();
-  chunks_.push_back(std::move(place));
+  chunk_indexes_ += index_record(place);
+  start_ = chunks_ == 0 ? place.start : std::min(start_, place.start);
+  end_ = std::max(end_, place.end);
+  ++chunks_;
 }
 
 void Writer::end(const std::vector<Schema>& schemas, const std::vector<Channel>& channels) {
@@ -129,7 +132,9 @@ void Writer::end(const std::vector<Schema>& schemas, const std::vector<Channel>&
     put(content, offset());
     put(content, static_cast<std::uint64_t>(records.size()));
     offsets += record_of(Opcode::summary_offset, content);
-    put_out(records);
+    count(records, crc32(records));
+    file_.append(waiting_, records);
+    waiting_.clear();
   };
   std::string records;
   for (const Schema& schema : schemas) records += record_of(schema);
@@ -143,24 +148,17 @@ void Writer::end(const std::vector<Schema>& schemas, const std::vector<Channel>&
     put(counts, static_cast<std::uint16_t>(channel));
     put(counts, counts_[channel]);
   }
-  std::int64_t start = chunks_.empty() ? 0 : chunks_.front().start, last = 0;
-  for (const ChunkPlace& chunk : chunks_) {
-    start = std::min(start, chunk.start);
-    last = std::max(last, chunk.end);
-  }
   put(statistics, std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}));
   put(statistics, static_cast<std::uint16_t>(schemas.size()));
   put(statistics, static_cast<std::uint32_t>(channels.size()));
   put(statistics, attachments_);
   put(statistics, std::uint32_t{0});  // metadata
-  put(statistics, static_cast<std::uint32_t>(chunks_.size()));
-  put(statistics, start);
-  put(statistics, last);
+  put(statistics, chunks_);
+  put(statistics, start_);
+  put(statistics, end_);
   put_text(statistics, counts);
   put_group(Opcode::statistics, record_of(Opcode::statistics, statistics));
-  records.clear();
-  for (const ChunkPlace& chunk : chunks_) records += index_record(chunk);
-  put_group(Opcode::chunk_index, records);
+  put_group(Opcode::chunk_index, chunk_indexes_);
   put_group(Opcode::attachment_index, attachment_indexes_);
   const std::uint64_t offsets_at = offset();
   put_out(offsets);

@@ -28,7 +28,7 @@ class Writer {
 
   /// Written so far.
   std::uint64_t bytes() const { return file_.bytes(); }
-  bool has_chunks() const { return !chunks_.empty(); }
+  bool has_chunks() const { return chunks_ > 0; }
 
  private:
   std::uint64_t offset() const { return file_.bytes() + waiting_.size(); }
@@ -40,8 +40,10 @@ class Writer {
   Compression compression_;
   std::string waiting_;    // for the next flush
   std::uint32_t crc_ = 0;  // of all up to here
-  std::vector<ChunkPlace> chunks_;
+  std::uint32_t chunks_ = 0;
+  std::int64_t start_ = 0, end_ = 0;   // ns: of the first message of all and the last one
   std::vector<std::uint64_t> counts_;  // messages, per channel
+  std::string chunk_indexes_;          // records, as a long recording has many
   std::string attachment_indexes_;     // records
   std::uint32_t attachments_ = 0;
   std::string head_, compressed_;  // memory that is used again
