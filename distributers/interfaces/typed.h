@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -32,9 +33,13 @@ class Typed final : public AnyDistributer {
   const messages::MessageSet& message_set() const override { return D::message_set(); }
   void receive(messages::MessageRef message) override {
     if constexpr (detail::has_any_message<D>) distributer_.any_message();
-    for (auto handler = find_handler(message.descriptor->id); handler->id == message.descriptor->id; ++handler)
-      if (handler->descriptor == message.descriptor) return handler->call(distributer_, message);
+    for (auto handler = find_handler(message.descriptor->id); handler->id == message.descriptor->id; ++handler) {
+      if (handler->descriptor != message.descriptor) continue;
+      used_.store(used_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+      return handler->call(distributer_, message);
+    }
   }
+  std::uint64_t used() const override { return used_.load(std::memory_order_relaxed); }
   void peer_changed() override {
     if constexpr (detail::has_peer_changed<D>) distributer_.peer_changed();
   }
@@ -261,6 +266,7 @@ class Typed final : public AnyDistributer {
   (Out::fields());
 
   D distributer_;
+  std::atomic<std::uint64_t> used_{0};
 };
 
 /// The description of a distributer and what makes it, as the registry has it.

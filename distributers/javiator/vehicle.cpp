@@ -8,7 +8,7 @@
 namespace jarol::distributers {
 namespace {
 
-constexpr std::uint16_t unlock_every = 64;     // signals: about a second
+constexpr std::uint16_t repeat_every = 64;     // signals: about a second
 constexpr std::uint16_t longest_delay = 1000;  // of an answer, in signals sent since
 
 std::int16_t to_signal(double signal) {
@@ -65,9 +65,9 @@ void JaviatorVehicle::data(const javiator::JaviatorData& d) {
 
 void JaviatorVehicle::send_motors(const tasks::MotorCommand& motors, messages::Receiver& system) {
   // more than once: the link may lose it, and a Robostix that was started anew is locked
-  if (motors.unlocked && (!unlocked_ || (id_ + 1) % unlock_every == 0))
-    system.receive(messages::refer_to(javiator::SwitchState{}));
-  if (!motors.unlocked && unlocked_) system.receive(messages::refer_to(javiator::ShutDown{}));
+  const bool repeats = (id_ + 1) % repeat_every == 0;
+  if (motors.unlocked && (!unlocked_ || repeats)) system.receive(messages::refer_to(javiator::SwitchState{}));
+  if (!motors.unlocked && (unlocked_ || repeats)) system.receive(messages::refer_to(javiator::ShutDown{}));
   unlocked_ = motors.unlocked;
   ++id_;
   number_ = motors.number;

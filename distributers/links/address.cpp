@@ -119,4 +119,17 @@ Address peer_of(const Descriptor& socket) {
   return Address::of(storage, size);
 }
 
+bool is_connected_to_itself(const Descriptor& socket) {
+  sockaddr_storage storage{};
+  socklen_t size = sizeof storage;
+  if (getsockname(socket.get(), reinterpret_cast<sockaddr*>(&storage), &size) != 0) return false;
+  const Address peer = peer_of(socket);
+  return peer && peer == Address::of(storage, size);
+}
+
+void break_off(Descriptor socket) {
+  const linger at_once{.l_onoff = 1, .l_linger = 0};
+  setsockopt(socket.get(), SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
+}
+
 }  // namespace jarol::distributers

@@ -52,4 +52,10 @@ int port_of(const Descriptor& socket);
 /// To whom a socket is connected; none: it is not.
 Address peer_of(const Descriptor& socket);
 
+/// To nobody but itself: as it was to connect to a port at which nobody listens, the system gave it that one.
+bool is_connected_to_itself(const Descriptor& socket);
+
+/// Its connection ends at once, and the system forgets it.
+void break_off(Descriptor socket);
+
 }  // namespace jarol::distributers

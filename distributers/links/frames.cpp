@@ -49,6 +49,10 @@ FrameStream FrameStream::connect(const Address& peer, std::chrono::milliseconds 
   Descriptor made(socket(peer.family(), SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   int error = made && ::connect(made.get(), peer.get(), peer.size()) == 0 ? 0 : errno;
   if (error == EINPROGRESS) error = connect_within(made.get(), limit);
+  if (error == 0 && is_connected_to_itself(made)) {
+    break_off(std::move(made));
+    error = ECONNREFUSED;
+  }
   if (error != 0)
     throw FrameError("there is no vehicle at " + peer.text() + ": " + std::strerror(error) +
                      "; start one by 'jarol vehicle NAME --link lockstep --listen " + std::to_string(peer.port()) +

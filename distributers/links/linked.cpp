@@ -1,5 +1,7 @@
 #include "distributers/links/linked.h"
 
+#include <algorithm>
+
 namespace jarol::distributers {
 
 LinkedSystem::LinkedSystem(std::unique_ptr<Link> link, std::unique_ptr<AnyDistributer> distributer)
@@ -23,6 +25,13 @@ void LinkedSystem::begin() {
 void LinkedSystem::finish() {
   link_->disconnect();
   distributer_->finish();
+}
+
+// What it can't use may be its own, as from a line that echoes.
+std::optional<LinkReport> LinkedSystem::link_report() const {
+  LinkReport report = link_->report();
+  report.heard = std::min(report.heard, distributer_->used());
+  return report;
 }
 
 void LinkedSystem::reach(Duration instant) {

@@ -45,6 +45,10 @@ Descriptor TcpClient::get_stream() {
   if (!made) return {};
   if (connect(made.get(), peer_.get(), peer_.size()) != 0 && (errno != EINPROGRESS || !finish_connecting(made.get())))
     return {};
+  if (is_connected_to_itself(made)) {
+    break_off(std::move(made));
+    return {};
+  }
   send_at_once(made.get());
   return made;
 }

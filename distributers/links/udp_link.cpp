@@ -27,6 +27,9 @@ std::unique_ptr<Transport> make_udp(const UdpSpec& spec, const Yaml& yaml, const
   if (listen && peer && listen.family() != peer.family())
     problems.add(spec.peer->where, "'" + spec.peer->value + "' can't be reached from '" + spec.listen->value +
                                        "': one is IPv4, the other IPv6");
+  if (listen && peer == listen && listen.port() != 0)
+    problems.add(spec.peer->where,
+                 "'" + spec.peer->value + "' is where this link listens itself; state where the other end does");
   try {
     return std::make_unique<UdpTransport>(
         listen, peer, spec.announce ? Announcer::parse(spec.announce->value) : std::vector<Address>{},

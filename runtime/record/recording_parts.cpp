@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -38,6 +39,14 @@ bool may_be_replaced(const std::string& path) {
 bool is_special(const std::string& path) {
   std::error_code none;
   return std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none);
+}
+
+// Where it was opened there is another file by now, or none.
+bool is_moved(std::FILE* file, const std::string& path) {
+  struct stat open {};
+  struct stat there {};
+  if (::fstat(fileno(file), &open) != 0 || !S_ISREG(open.st_mode)) return false;
+  return ::stat(path.c_str(), &there) != 0 || open.st_dev != there.st_dev || open.st_ino != there.st_ino;
 }
 
 [[noreturn]] void fail_to_write(const std::string& path, int reason) {
@@ -182,10 +191,14 @@ void RecordingParts::finish() {
 }
 
 void RecordingParts::close() {
+  const bool is_lost = is_moved(part_.file, part_.path);
   // what is in buffers goes out here at the latest, so that a full disk shows
   if (!sync(part_.file)) fail(errno);
   if (std::fclose(std::exchange(part_.file, nullptr)) != 0) fail(errno);
   sync_folder_of(part_.path);
+  if (is_lost)
+    throw std::runtime_error("'" + part_.path +
+                             "' was removed or replaced while it was written; the recording is lost");
 }
 
 void RecordingParts::fail(int reason) const { fail_to_write(part_.path, reason); }

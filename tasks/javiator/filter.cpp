@@ -29,6 +29,7 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
   FlightEstimate& e = out.estimate;
   const bool fresh = s.answers != state.before.answers;
   state.before.answers = s.answers;
+  if (fresh && state.unanswered > p.patience) state.begins_anew = true;
   state.unanswered = fresh ? 0 : state.unanswered + dt;
   const double heard_dt = fresh ? dt : 0;
   const FlightState doing = in.directive.state;
@@ -142,11 +143,17 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
     forgive(state.pressure, new_pressure);
     if (new_pressure && state.pressure.repeats == 0) learn(state.ground, s.pressure, last_pressure);
     state.disagreement = 0;
+    state.begins_anew = false;
   } else {
     predict(state.x, a.x(), dt);
     predict(state.y, a.y(), dt);
     predict(state.z, -a.z(), dt);
     predict(state.z_slow, -a.z(), dt);
+    if (state.begins_anew && (new_z || state.sonar.lost)) {
+      if (!state.sonar.lost) state.z = state.z_slow = {.place = z - state.zero_z, .since = dt};
+      state.disagreement = 0;
+      state.begins_anew = false;
+    }
     const double jump = state.imu.lost && !is_blind ? p.range_jump : p.sonar_jump + p.sonar_jump_rate * state.z.since;
     const bool credible = new_z && is_near(state.z, z - state.zero_z, std::min(jump, p.range_jump));
     const bool had_sonar = !state.sonar.lost;
@@ -158,7 +165,7 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
     compare_climb(state, p, dt);
     // no climb is that fast: a pressure that jumps is wrong
     if (new_pressure && std::abs(s.pressure - last_pressure) > credible_step(state, p)) state.pressure.lost = true;
-    if (believe(state.pressure, new_pressure, p.patience)) weigh_pressure(state, p, s.pressure);
+    if (believe(state.pressure, new_pressure, p.patience) && !state.begins_anew) weigh_pressure(state, p, s.pressure);
     // what it has learnt of late may be what is wrong with the sonar
     const bool begins_to_repeat = new_z && p.sonar_repeats > 0 && state.sonar.repeats == p.sonar_repeats;
     if (had_sonar && (state.sonar.lost || begins_to_repeat)) {
@@ -239,7 +246,7 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
        .rates_known = !state.imu.lost && answers,
        .attitude_known = !state.imu.lost && !state.angles.lost,
        .lean_known = is_blind,
-       .altitude_known = !state.sonar.lost,
+       .altitude_known = !state.sonar.lost && !state.begins_anew,
        .position_known = !state.laser_x.lost && !state.laser_y.lost && unseen < p.unseen.patience,
        .pressure_known = !state.pressure.lost,
        .answers_known = answers};

@@ -165,7 +165,7 @@ struct JaviatorFilter {
     double roll = 0, pitch = 0, yaw = 0;
     double disagreement = 0, climb_off = 0, climb_was_off = 0, roll_off = 0, pitch_off = 0, unanswered = 0;
     double slant_roll = 0, slant_pitch = 0;
-    bool has_flown = false;
+    bool has_flown = false, begins_anew = false;
     Before before{};
     static constexpr auto fields() {
       using S = State;
@@ -183,7 +183,9 @@ struct JaviatorFilter {
                       field<&S::roll_off>("rad", "by which it is wrong as places report, averaged"),
                       field<&S::pitch_off>("rad"), field<&S::unanswered>("s", "since the Robostix answered"),
                       field<&S::slant_roll>("rad", "of the weight felt while it stands, less the roll, averaged"),
-                      field<&S::slant_pitch>("rad"), field<&S::has_flown>(), field<&S::before>());
+                      field<&S::slant_pitch>("rad"), field<&S::has_flown>(),
+                      field<&S::begins_anew>("", "with the altitude of the next range, as nothing was heard for long"),
+                      field<&S::before>());
     }
   };
   struct Out {

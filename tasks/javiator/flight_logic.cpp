@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "graph/math/geometry.h"
 
@@ -10,6 +11,8 @@ namespace jarol::tasks {
 namespace {
 
 using Cause = LandingCause;
+
+constexpr double long_silence = 0.3;  // s: after it nobody knows whether it flies
 
 Cause find_lean(const FlightLogic::Param& p, const FlightEstimate& e) {
   if (std::abs(e.roll) > p.roll_limit) return Cause::roll;
@@ -139,6 +142,11 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   const double dt = seconds(tick.period);
   state.since += dt;
   state.unheard = command.heard ? 0 : state.unheard + dt;
+  // nobody looked during activations that were left out
+  const std::int64_t before = std::exchange(state.before, tick.activation);
+  const double passed = before < 0 ? dt : dt * static_cast<double>(tick.activation - before);
+  state.unanswered = e.answers_known && passed < long_silence ? 0 : state.unanswered + passed;
+  if (state.unanswered > long_silence) state.was_silent = true;
   see_wall(e.fix_x, state.walls_x);
   see_wall(e.fix_y, state.walls_y);
   const bool wants_position = command.mode_switches % 2 == 1;
@@ -192,6 +200,15 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
     else if (state.since > 1 && state.still > p.touch_time)
       enter(FlightState::ground, d.cause, state, d);
   }
+  const bool flies = d.state == FlightState::flying || d.state == FlightState::landing;
+  bool has_come_down = state.unanswered > p.answers_patience;  // longer than any landing
+  if (state.was_silent && e.answers_known && e.altitude_known) {
+    has_come_down = has_come_down || e.altitude < p.tips_below;
+    state.was_silent = false;
+  }
+  // on its feet or not: nobody but the operator may start its motors again
+  if (flies && has_come_down)
+    enter(FlightState::halt, d.cause == Cause::none ? Cause::answers_late : d.cause, state, d);
   d.stands = in.lift.stands;
   // one that lies on its side does not stand there well, however it came to that
   if (d.state == FlightState::ground && d.cause == Cause::none && e.attitude_known) d.cause = find_lean(p, e);

@@ -28,6 +28,7 @@ struct FlightLogic {
     double altitude_limit = 2.8;
     double battery_limit = 13.4;
     double patience = 0.525;
+    double answers_patience = 2.5;
     double still = 0.08;
     double light = 0.6;
     double touch_time = 0.3;
@@ -47,6 +48,9 @@ struct FlightLogic {
           field<&P::altitude_limit>("m", "beyond which it lands"),
           field<&P::battery_limit>("V", "below which it lands"),
           field<&P::patience>("s", "without the operator, before it lands"),
+          field<&P::answers_patience>("s",
+                                      "without an answer of the Robostix, before a landing ends with the motors "
+                                      "locked: less than until its `safe`, or they start again with what comes then"),
           field<&P::still>("m/s", "rate of descent below which it may have touched down"),
           field<&P::light>("", "thrust below which the ground must carry"),
           field<&P::touch_time>("s", "for which it is still or light when it has touched down"),
@@ -56,7 +60,9 @@ struct FlightLogic {
           field<&P::out_of_control_time>("s", "of that"),
           field<&P::overturned>("rad", "of lean that only lasers show, likewise, for touch_time")
               .in(0, std::numbers::pi),
-          field<&P::tips_below>("m", "altitude below which a lean beyond its limit locks the motors: it tips over"),
+          field<&P::tips_below>("m",
+                                "altitude below which a lean beyond its limit locks the motors: it tips over; and "
+                                "below which it has come down while the Robostix was silent"),
           field<&P::full>("", "thrust that lifts whatever it may carry"),
           field<&P::lift_patience>("s", "for which that does not lift it, before it lands"));
     }
@@ -74,19 +80,23 @@ struct FlightLogic {
     }
   };
   struct State {
-    double since = 0, unheard = 0, still = 0, lies_over = 0, without_lift = 0;
-    bool settles = false;
+    double since = 0, unheard = 0, unanswered = 0, still = 0, lies_over = 0, without_lift = 0;
+    bool settles = false, was_silent = false;
     Walls walls_x{}, walls_y{};
+    std::int64_t before = -1;
     std::uint32_t state_switches = 0, shut_downs = 0;
     TrimKeys trim{};
     static constexpr auto fields() {
       using S = State;
       return describe(field<&S::since>("s", "the state began"), field<&S::unheard>("s", "the operator was heard"),
+                      field<&S::unanswered>("s", "the Robostix answered in time, and that was looked at"),
                       field<&S::still>("s", "it has not moved up or down"),
                       field<&S::lies_over>("s", "it has leant like one that has overturned"),
                       field<&S::without_lift>("s", "it has not risen at full thrust"),
                       field<&S::settles>("", "where it is, as it is to go to the ground"),
+                      field<&S::was_silent>("", "the Robostix, for so long that it may have come down"),
                       field<&S::walls_x>("", "of the room, which it keeps away from"), field<&S::walls_y>(),
+                      field<&S::before>("", "activation that ran last"),
                       field<&S::state_switches>("", "of the operator, up to now"),
                       field<&S::shut_downs>("", "likewise"), field<&S::trim>("", "likewise"));
     }

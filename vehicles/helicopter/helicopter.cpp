@@ -84,7 +84,7 @@ void Helicopter::accept(messages::MessageRef command) {
   if (const auto* signals = command.as<messages::javiator::MotorSignals>()) {
     signals_.send(*signals, nanoseconds_);
     hear_signals();
-  } else {
+  } else if (!parameters_.packets.is_cut(1e-9 * static_cast<double>(nanoseconds_))) {
     robostix_.accept(command);
   }
 }

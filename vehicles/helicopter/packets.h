@@ -12,13 +12,15 @@
 
 namespace jarol::vehicles {
 
-/// What happens to each packet, on either way, by chance.
+/// What happens to each packet, on either way, by chance, and when none passes.
 struct PacketParameters {
   double loss = 0.0;
   double repeated = 0.0;
   double held = 0.0;
   double held_time = 0.03;
   double delay = 0.0;
+  double cut_at = 1e9;
+  double cut_time = 1e9;
 
   static constexpr auto fields() {
     using P = PacketParameters;
@@ -26,8 +28,13 @@ struct PacketParameters {
                     field<&P::repeated>("", "part that arrive twice").in(0, 1),
                     field<&P::held>("", "part that are held up").in(0, 1),
                     field<&P::held_time>("s", "for which they are").in(0, 1),
-                    field<&P::delay>("s", "greatest delay of all others").in(0, 1));
+                    field<&P::delay>("s", "greatest delay of all others").in(0, 1),
+                    field<&P::cut_at>("s", "since the start, from when on no packet passes").in(0, 1e9),
+                    field<&P::cut_time>("s", "for which none does").in(0, 1e9));
   }
+
+  /// Whether none passes at that time.
+  bool is_cut(double seconds) const { return seconds >= cut_at && seconds - cut_at < cut_time; }
 };
 
 /// One way of the radio: packets of one kind, in the order in which they arrive.
@@ -38,7 +45,7 @@ class PacketLine {
   PacketLine(const PacketParameters& parameters, std::uint64_t seed) : parameters_(parameters), noise_(seed) {}
 
   void send(const M& message, std::int64_t nanoseconds) {
-    if (noise_.uniform() < parameters_.loss) return;
+    if (noise_.uniform() < parameters_.loss || parameters_.is_cut(1e-9 * static_cast<double>(nanoseconds))) return;
     const int copies = noise_.uniform() < parameters_.repeated ? 2 : 1;
     for (int i = 0; i < copies; ++i) {
       const double held = noise_.uniform() < parameters_.held ? parameters_.held_time : 0.0;

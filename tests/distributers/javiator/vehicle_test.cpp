@@ -140,7 +140,7 @@ TEST_SUITE("distributers/javiator_vehicle") {
     }
   }
 
-  TEST_CASE("motors are unlocked before the first signals and about once a second, and shut down once after that") {
+  TEST_CASE("motors are unlocked before the first signals and about once a second, and shut down likewise after that") {
     Vehicle v;
     SentInOrder sent;
     v.command(sent, false, {});
@@ -158,6 +158,10 @@ TEST_SUITE("distributers/javiator_vehicle") {
     for (int i = 0; i < 150; ++i) v.command(sent, true, {});
     CHECK(std::count(sent.order.begin(), sent.order.end(), 'm') == 150);
     CHECK(std::count(sent.order.begin(), sent.order.end(), 'u') == 3);
+    sent.order.clear();
+    for (int i = 0; i < 150; ++i) v.command(sent, false, {});
+    CHECK(std::count(sent.order.begin(), sent.order.end(), 's') == 3);
+    CHECK(std::count(sent.order.begin(), sent.order.end(), 'u') == 0);
   }
 
   TEST_CASE("signals are whole numbers from 0 to 16000, each command has the next number") {

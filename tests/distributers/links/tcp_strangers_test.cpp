@@ -23,6 +23,12 @@ struct LateServer : TcpServer {
   }
   std::atomic<bool> may_look{false};
 };
+distributers::Descriptor bound_stream() {
+  distributers::Descriptor made(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  const auto any_port = distributers::Address::parse("127.0.0.1:0");
+  REQUIRE(bind(made.get(), any_port.get(), any_port.size()) == 0);
+  return made;
+}
 }  // namespace
 
 TEST_SUITE("distributers/links/tcp_strangers") {
@@ -121,5 +127,22 @@ TEST_SUITE("distributers/links/tcp_strangers") {
     REQUIRE(report.takeovers.size() == 1);
     CHECK(report.takeovers[0].from == first.name);
     CHECK(report.takeovers[0].to == second->name);
+  }
+
+  // The system gives who connects any free port: the one that he asks for, too.
+  TEST_CASE("a socket that is connected to its own port is connected to itself, and is forgotten when it breaks off") {
+    distributers::Descriptor self = bound_stream();
+    const auto own = distributers::Address::parse("127.0.0.1:0").with_port(distributers::port_of(self));
+    CHECK_FALSE(distributers::is_connected_to_itself(self));
+    REQUIRE(connect(self.get(), own.get(), own.size()) == 0);
+    CHECK(distributers::is_connected_to_itself(self));
+    distributers::break_off(std::move(self));
+    // a server may have the port at once
+    const distributers::Descriptor server(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    CHECK(bind(server.get(), own.get(), own.size()) == 0);
+    REQUIRE(listen(server.get(), 1) == 0);
+    const distributers::Descriptor client(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    REQUIRE(connect(client.get(), own.get(), own.size()) == 0);
+    CHECK_FALSE(distributers::is_connected_to_itself(client));
   }
 }

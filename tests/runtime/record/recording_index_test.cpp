@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "runtime/execute/log_end.h"
 #include "runtime/record/instants.h"
@@ -33,7 +34,9 @@ class IndexedFile {
   fs::path path_;
 };
 
-void record(const std::string& path, mcap::Compression compression = mcap::Compression::lz4) {
+void record(
+    const std::string& path, mcap::Compression compression = mcap::Compression::lz4,
+    const std::function<void()>& meanwhile = [] {}) {
   const Graph graph = tests::graph_of(R"(graph: t
 tasks:
   a: {type: Counter, period: 1ms}
@@ -46,6 +49,7 @@ connections: [a.out -> b.in]
   Recorder recorder({writer.publications()});
   Executor executor(graph, {}, {.recorder = &recorder, .log = writer.recorder()});
   executor.run_until(60s);
+  meanwhile();
   recorder.close();
   writer.close(log_end_of(executor.report()));
 }
@@ -73,6 +77,26 @@ std::vector<bool> topic_of(const Recording& recording, const std::string& name) 
 }  // namespace
 
 TEST_SUITE("runtime/recording_index") {
+  TEST_CASE("a recording that was removed, moved or replaced while it was written is lost, and that is said") {
+    const IndexedFile file;
+    const std::string other = file.path() + ".moved";
+    const std::string lost =
+        "'" + file.path() + "' was removed or replaced while it was written; the recording is lost";
+    CHECK_THROWS_WITH_AS(record(file.path(), mcap::Compression::lz4, [&] { fs::remove(file.path()); }), lost.c_str(),
+                         std::runtime_error);
+    CHECK_THROWS_WITH_AS(record(file.path(), mcap::Compression::lz4, [&] { fs::rename(file.path(), other); }),
+                         lost.c_str(), std::runtime_error);
+    CHECK_THROWS_WITH_AS(record(file.path(), mcap::Compression::lz4,
+                                [&] {
+                                  fs::remove(file.path());
+                                  file.write("");
+                                }),
+                         lost.c_str(), std::runtime_error);
+    fs::remove(file.path());
+    fs::remove(other);
+    CHECK_NOTHROW(record(file.path()));
+  }
+
   TEST_CASE("what the index says is what the whole file says") {
     const IndexedFile file;
     record(file.path());

@@ -221,4 +221,34 @@ TEST_SUITE("tasks/javiator_filter") {
       CHECK_FALSE(heard.state.sonar.lost);
     }
   }
+
+  TEST_CASE("heard again after more than 0.3 s its altitude is known from the next range on, which begins it anew") {
+    HeardHelicopter heard = tests::hovering();
+    heard.sensors.a_z = -10.81;  // it rises as nothing more is heard
+    heard.run(30);
+    const double before = heard.out.estimate.altitude;
+    const auto be_silent = [&](int periods) {
+      for (int i = 0; i < periods; ++i) {
+        --heard.sensors.answers;
+        heard.run(1);
+      }
+    };
+    be_silent(200);
+    CHECK(heard.out.estimate.altitude > before + 0.5);  // it does not know better
+    heard.sensors.a_z = -9.81;
+    heard.sensors.new_sonar = false;
+    heard.sensors.pressure = 101325;
+    CHECK_FALSE(heard.run(1).altitude_known);
+    CHECK_FALSE(heard.run(1).altitude_known);
+    heard.sensors.new_sonar = true;
+    heard.sensors.sonar = 0.145;
+    const FlightEstimate& e = heard.run(1);
+    CHECK(e.altitude_known);
+    CHECK(e.altitude == doctest::Approx(0).scale(1).epsilon(0.01));
+    CHECK(e.climb == doctest::Approx(0).scale(1).epsilon(0.01));
+    heard.run(100);
+    CHECK(e.altitude_known);
+    CHECK(e.pressure_known);
+    CHECK(e.altitude == doctest::Approx(0).scale(1).epsilon(0.01));
+  }
 }

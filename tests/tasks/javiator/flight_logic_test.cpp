@@ -21,9 +21,11 @@ struct Logic {
                      .lift = {1}};
 
   FlightLogic::Param param{.yaw_limit = 2};
+  std::int64_t activation = 0;
 
   FlightState run(int periods) {
-    for (int i = 0; i < periods; ++i) FlightLogic::run(param, {.period = 15ms}, in, state, out);
+    for (int i = 0; i < periods; ++i)
+      FlightLogic::run(param, {.activation = activation++, .period = 15ms}, in, state, out);
     return out.directive.state;
   }
   FlightState press() {
@@ -273,6 +275,44 @@ TEST_SUITE("tasks/flight_logic") {
     logic.in.estimate.answers_known = logic.in.estimate.rates_known = false;
     CHECK(logic.run(1) == FlightState::landing);
     CHECK(logic.out.directive.cause == LandingCause::answers_late);
+  }
+
+  TEST_CASE(
+      "without answers for 2.5 s, or without looking for so long, it halts, and only the operator starts it again") {
+    for (const bool looks : {true, false}) {
+      Logic logic;
+      logic.fly();
+      logic.in.estimate.answers_known = !looks;
+      if (looks) {
+        CHECK(logic.run(166) == FlightState::landing);
+      } else {
+        logic.activation += 166;
+      }
+      CHECK(logic.run(1) == FlightState::halt);
+      CHECK(logic.out.directive.cause == LandingCause::answers_late);
+      logic.in.estimate.answers_known = true;
+      CHECK(logic.run(200) == FlightState::halt);
+      CHECK(logic.press() == FlightState::ground);
+    }
+  }
+
+  TEST_CASE("heard again after more than 0.3 s it lands on, or halts where it is below 20 cm by then") {
+    for (const double altitude : {0.19, 0.21}) {
+      Logic logic;
+      logic.fly();
+      logic.in.estimate.answers_known = false;
+      logic.in.estimate.climb = 1;  // as it was felt last
+      CHECK(logic.run(30) == FlightState::landing);
+      logic.in.estimate.answers_known = true;
+      logic.in.estimate.altitude_known = false;
+      logic.in.estimate.altitude = 3;
+      CHECK(logic.run(3) == FlightState::landing);
+      logic.in.estimate.altitude_known = true;
+      logic.in.estimate.altitude = altitude;
+      CHECK(logic.run(1) == (altitude < 0.2 ? FlightState::halt : FlightState::landing));
+      logic.in.estimate.altitude = 0.1;
+      CHECK(logic.run(1) == (altitude < 0.2 ? FlightState::halt : FlightState::landing));
+    }
   }
 
   TEST_CASE("after a landing that nobody wanted the operator's key only acknowledges: it may have been meant to land") {

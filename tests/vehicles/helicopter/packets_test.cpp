@@ -80,6 +80,14 @@ TEST_SUITE("vehicles/packets") {
     CHECK(delays_of({.loss = 0.5}, 7) != delays_of({.loss = 0.5}, 8));
   }
 
+  TEST_CASE("while the radio is cut off nothing passes, and what was sent before and after does") {
+    const std::vector<int> answers = answers_over({.cut_at = 0.3, .cut_time = 0.6}, 100);
+    std::vector<int> all;
+    for (int i = 0; i < 100; ++i)
+      if (i < 20 || i >= 60) all.push_back(i);  // one each 15 ms
+    CHECK(answers == all);
+  }
+
   TEST_CASE("what was held up arrives after what was sent later, and what arrives at one time in the order sent") {
     PacketLine<int> line({.delay = 0.008}, 1);
     for (int i = 0; i < 100; ++i) line.send(i, i * millisecond);
@@ -135,7 +143,7 @@ TEST_SUITE("vehicles/packets") {
     CHECK_FALSE(std::is_sorted(late.begin(), late.end()));
   }
 
-  TEST_CASE("switches are sent once, and are not lost") {
+  TEST_CASE("switches are not lost by chance, but where the radio is cut off") {
     HelicopterParameters parameters;
     parameters.packets = {.loss = 1};
     parameters.start = {.altitude = 10, .signal = 8000};
@@ -146,5 +154,10 @@ TEST_SUITE("vehicles/packets") {
     helicopter.accept(messages::refer_to(javiator::ShutDown{}));
     for (int i = 0; i < 200; ++i) helicopter.step();
     CHECK(static_cast<const HelicopterOutputs*>(helicopter.outputs())->rotors.front < 1);
+
+    parameters.packets = {.cut_at = 0, .cut_time = 1};
+    Helicopter cut_off(parameters, 1);
+    cut_off.accept(messages::refer_to(javiator::ShutDown{}));
+    CHECK(static_cast<const HelicopterOutputs*>(cut_off.outputs())->rotors.front > 7000);
   }
 }

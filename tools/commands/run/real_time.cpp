@@ -201,8 +201,11 @@ std::string to_text(const LinkReport& link) {
     text += fmt::format("              stranger {}, {} times\n", stranger.address, stranger.times);
   if (link.more_strangers > 0) text += fmt::format("              more strangers, {} times\n", link.more_strangers);
   if (link.heard > 0) return text;
-  return text + "              NO PACKET " + (link.dropped > 0 ? "THAT COUNTS " : "") + "HAS COME over " + link.link +
-         "\n";
+  // of what came nothing was of use, as of a line that echoes
+  const bool has_come = link.dropped > 0 || std::any_of(link.counts.begin(), link.counts.end(), [](const auto& count) {
+                          return count.first == "packets in" && count.second > 0;
+                        });
+  return text + "              NO PACKET " + (has_come ? "THAT COUNTS " : "") + "HAS COME over " + link.link + "\n";
 }
 
 nlohmann::ordered_json to_json(const LinkReport& link) {
