@@ -21,8 +21,8 @@ struct FlightLimits {
 
   static constexpr auto fields() {
     using L = FlightLimits;
-    return describe(field<&L::max_depth>("m", "at which the vehicle's supervisor brings it up"),
-                    field<&L::min_altitude>("m", "over the sea floor, at which it does so"),
+    return describe(field<&L::max_depth>("m", "limit that the vehicle's supervisor keeps"),
+                    field<&L::min_altitude>("m", "the same, over the sea floor"),
                     field<&L::margin>("m", "that plans keep to both, as the vehicle overshoots"),
                     field<&L::min_speed>("m/s", "of a plan"), field<&L::max_speed>("m/s", "of a plan"),
                     field<&L::min_thrust>("", "of a plan whose speeds are in %, 0 to 1"),

@@ -20,6 +20,7 @@ constexpr double watch_time = 2;        // s, over which rates add up
 constexpr double floor_time = 30;       // s, for the sea floor to rise or fall
 constexpr double surface_depth = 0.15;  // m, at which GPS has to work; a little deeper it does not
 constexpr double slowest = 0.5;         // m/s, at which the fins still level it off
+constexpr double heave_time = 2;        // s, for waves and noise to cancel out
 
 // By the gauge, or by the pressure where no gauge is fitted.
 double depth_of(const Instruments& i) {
@@ -156,22 +157,35 @@ Alarm find_actuator(const Param& p, const LauvSupervisor::In& in, State& state) 
   return is_low(p, voltage) ? Alarm::voltage_limit : found;
 }
 
+// Down, by its motion across the hull: the last two parts of the third row of R_nb times the velocity.
+double calc_heave(const Instruments& i) {
+  const double phi = i.attitude.x;
+  return (i.velocity.y * std::sin(phi) + i.velocity.z * std::cos(phi)) * std::cos(i.attitude.y);
+}
+
+bool moves_known(const Instruments& i) { return i.attitude.count > 0 && i.velocity.count > 0; }
+
+void note_heave(const Instruments& i, double dt, State& state) {
+  if (!moves_known(i)) return;
+  const double heave = calc_heave(i);
+  if (!std::exchange(state.heave_started, true)) state.heave = heave;
+  state.heave += std::min(dt / heave_time, 1.0) * (heave - state.heave);
+}
+
 // How much deeper it gets while it levels off: z_dot / u, the slope of its path, times a length of way. The moments of
 // fins and hull go with the square of u, so that this is one length at any speed: of the submarines in specs/vehicles
 // 1.6 to 1.8 m where they sink steadily at 0.7 to 2 m/s, up to 2.3 m at 0.5 m/s or while the nose still goes down.
-// z_dot is the third row of R_nb times the velocity.
-double calc_way_down(const Param& p, const Instruments& i) {
-  if (i.attitude.count < 1 || i.velocity.count < 1) return 0;
-  const double phi = i.attitude.x, theta = i.attitude.y;
-  const double z_dot =
-      -i.velocity.x * std::sin(theta) + (i.velocity.y * std::sin(phi) + i.velocity.z * std::cos(phi)) * std::cos(theta);
+// Waves and the noise of the log move it to and fro across the hull, and no deeper: of that what lasts counts.
+double calc_way_down(const Param& p, const Instruments& i, const State& state) {
+  if (!moves_known(i)) return 0;
+  const double z_dot = -i.velocity.x * std::sin(i.attitude.y) + std::min(calc_heave(i), state.heave);
   return p.levelling_length * std::max(z_dot, 0.0) / std::max(i.velocity.x, slowest);
 }
 
-Alarm find_exceeded(const Param& p, const LauvSupervisor::In& in) {
+Alarm find_exceeded(const Param& p, const LauvSupervisor::In& in, const State& state) {
   const Instruments& i = in.instruments;
   if (in.contact.silence > p.operator_timeout) return Alarm::operator_lost;
-  const double way_down = calc_way_down(p, i);
+  const double way_down = calc_way_down(p, i, state);
   if (depth_of(i) + way_down > p.max_depth) return Alarm::depth_limit;
   // above the floor, not along the beam
   const double altitude = i.altitude.value * std::cos(i.attitude.y) * std::cos(i.attitude.x);
@@ -218,6 +232,7 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
   const double dt = seconds(tick.period);
   Alarm lost = find_lost(p, in.instruments, dt, state);
   const Alarm liar = find_liar(p, in.instruments, dt, state);
+  note_heave(in.instruments, dt, state);
   // old readings do not fit each other either
   const bool is_wrong = lost != Alarm::none || liar != Alarm::none;
   if (state.heard && is_wrong && calc_silence(state) > p.vehicle_timeout) lost = Alarm::vehicle_lost;
@@ -226,7 +241,7 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
   const Alarm leak = in.instruments.leak.value > 0.5 ? Alarm::leak : Alarm::none;
   if (state.alarm == Alarm::none || stopped) {
     Alarm found = Alarm::none;
-    for (const Alarm next : {leak, lost, liar, find_actuator(p, in, state), find_exceeded(p, in)})
+    for (const Alarm next : {leak, lost, liar, find_actuator(p, in, state), find_exceeded(p, in, state)})
       if (found == Alarm::none) found = next;
     if (state.alarm == Alarm::none || found == Alarm::none) {
       state.alarm = found;

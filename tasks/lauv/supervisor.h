@@ -59,8 +59,9 @@ struct LauvSupervisor {
           field<&P::sensor_timeout>("s", "an instrument that reports nothing for so long is lost"),
           field<&P::vehicle_timeout>("s", "where none has reported for so long, it is the vehicle that is lost"),
           field<&P::gps_timeout>("s", "the same for GPS at the surface"),
-          field<&P::operator_timeout>("s", "greatest silence of the operator"), field<&P::max_depth>("m", "limit"),
-          field<&P::min_altitude>("m", "limit, over the sea floor"),
+          field<&P::operator_timeout>("s", "greatest silence of the operator"),
+          field<&P::max_depth>("m", "limit, for where it would level off"),
+          field<&P::min_altitude>("m", "the same, over the sea floor"),
           field<&P::levelling_length>("m", "of the way that it takes to level off, whatever its speed").in(0, 100),
           field<&P::max_pitch>("rad", "limit, to either side").in(0, std::numbers::pi / 2),
           field<&P::min_voltage>("V", "limit"),
@@ -104,8 +105,8 @@ struct LauvSupervisor {
     double since_fix = 0;
     std::int64_t fixes = 0;
     std::array<double, 7> wrong_for{};
-    bool attitude_started = false, speed_started = false, floor_started = false;
-    double theta = 0, psi = 0, speed = 0, floor = 0;
+    bool attitude_started = false, speed_started = false, floor_started = false, heave_started = false;
+    double theta = 0, psi = 0, speed = 0, floor = 0, heave = 0;
     static constexpr auto fields() {
       using S = State;
       return describe(
@@ -116,9 +117,10 @@ struct LauvSupervisor {
           field<&S::counts>("", "of each instrument"), field<&S::silences>("s", "of each instrument"),
           field<&S::since_fix>("s", "at the surface"), field<&S::fixes>(),
           field<&S::wrong_for>("s", "each difference, for so long"), field<&S::attitude_started>(),
-          field<&S::speed_started>(), field<&S::floor_started>(), field<&S::theta>("rad", "that the rates add up to"),
-          field<&S::psi>("rad", "that the rates add up to"), field<&S::speed>("m/s", "that the propeller gives"),
-          field<&S::floor>("m", "depth of the sea floor"));
+          field<&S::speed_started>(), field<&S::floor_started>(), field<&S::heave_started>(),
+          field<&S::theta>("rad", "that the rates add up to"), field<&S::psi>("rad", "that the rates add up to"),
+          field<&S::speed>("m/s", "that the propeller gives"), field<&S::floor>("m", "depth of the sea floor"),
+          field<&S::heave>("m/s", "down, by its motion across the hull, without waves and noise"));
     }
   };
   struct Out {

@@ -41,8 +41,9 @@ constexpr auto enumerators(Alarm) {
   return std::array<Enumerator<Alarm>, 23>{
       {{"none", none},
        {"operator_lost", operator_lost, "it comes up, as the operator is silent"},
-       {"depth_limit", depth_limit, "it comes up, as it is deeper than the limit"},
-       {"altitude_limit", altitude_limit, "it comes up, as it is too close to the sea floor"},
+       {"depth_limit", depth_limit, "it comes up, as it is deeper than the limit, or would be before it levels off"},
+       {"altitude_limit", altitude_limit,
+        "it comes up, as it is too close to the sea floor, or would be before it levels off"},
        {"pitch_limit", pitch_limit, "it comes up, as its pitch is beyond the limit"},
        {"voltage_limit", voltage_limit, "it comes up, as the battery's voltage is below the limit"},
        {"leak", leak, "it comes up, as there is water in the hull, or the leak detector is silent"},

@@ -34,11 +34,11 @@ void note(const Session& session, Reached& reached) {
 // A channel of the operator's is given that value, for that time.
 template <class T>
 Reached sail(const std::string& profile, std::vector<std::string> set, const char* channel, const T& value,
-             Duration time) {
+             Duration time, std::uint64_t seed = 3) {
   set.emplace_back("distributers.dune.link.parameters.dynamics=rigid");
   set.emplace_back("expect=nothing");
   auto session =
-      jarol::open("specs/exolauv.yaml", {.profile = profile, .set = std::move(set), .seed = 3, .fed = {"neptus"}});
+      jarol::open("specs/exolauv.yaml", {.profile = profile, .set = std::move(set), .seed = seed, .fed = {"neptus"}});
   session.run_for(2s);
   session.feed(channel, value);
   Reached reached;
@@ -90,6 +90,18 @@ TEST_SUITE("tools/lauv_limits") {
         if (speed < 1 && !in_full) continue;
         for (tasks::Leg leg : legs) {
           leg.number = 1;
+  TEST_CASE(
+      "at the surface of water that is 40 cm deeper than its limit waves and noise are no alarm, at rest or ahead") {
+    for (const double speed : {0.0, 0.5, 0.8, 1.2}) {
+      for (const std::uint64_t seed : {1, 2, 3}) {
+        CAPTURE(speed);
+        CAPTURE(seed);
+        const tasks::Setpoint ahead{.heading = 40 * degree, .speed = speed};
+        CHECK(sail("at_sea", {floor_at(2.4)}, "neptus.setpoint", ahead, 60s, seed).alarm == tasks::Alarm::none);
+      }
+    }
+  }
+
           leg.surge = speed;
           CAPTURE(profile);
           CAPTURE(speed);

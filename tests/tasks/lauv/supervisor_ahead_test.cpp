@@ -10,6 +10,7 @@
 namespace {
 using namespace jarol;
 using namespace jarol::tasks;
+using namespace std::chrono_literals;
 using tests::calm_submarine;
 using tests::every_50_ms;
 
@@ -64,6 +65,32 @@ TEST_SUITE("tasks/lauv_supervisor/ahead") {
     CHECK(alarm_in(under_way(5, 2.44 - 0.001, 0, 0, 0.1)) == Alarm::altitude_limit);
     CHECK(alarm_in(under_way(5, 2.44 + 0.001, 0, 0, 0.1)) == Alarm::none);
     CHECK(alarm_in(under_way(5, 2.44 + 0.001, 0, -1, 0.1)) == Alarm::none);
+  }
+
+  TEST_CASE("what waves move it to and fro across the hull is no way down; what lasts for seconds is") {
+    const auto alarm_after = [](Duration time, auto heave_at) {
+      LauvSupervisor::State state;
+      LauvSupervisor::Out out;
+      for (int k = 0; k * 50ms < time && out.condition.alarm == Alarm::none; ++k) {
+        LauvSupervisor::In in = under_way(5, 2.3, 0, 0, heave_at(0.05 * k));
+        for (Reading* each : {&in.instruments.depth, &in.instruments.pressure, &in.instruments.altitude})
+          each->count += k;
+        LauvSupervisor::run({.sensor_timeout = 60}, every_50_ms, in, state, out);
+      }
+      return out.condition.alarm;
+    };
+    CHECK(alarm_after(60s, [](double s) { return 0.15 * std::sin(2 * pi * s / 2.5); }) == Alarm::none);
+    const auto sinks = [](double s) { return s < 1 ? 0 : 0.15; };  // 0.3 m of way are 0.068 m/s
+    CHECK(alarm_after(2s, sinks) == Alarm::none);
+    CHECK(alarm_after(3s, sinks) == Alarm::altitude_limit);
+    // what it does ahead counts at once, and so does that it levels off
+    LauvSupervisor::State state;
+    LauvSupervisor::Out out;
+    LauvSupervisor::run({}, every_50_ms, under_way(11.5, 50, 0, 1), state, out);
+    LauvSupervisor::run({}, every_50_ms, under_way(11.5, 50, -20 * degree, 1, -0.3), state, out);
+    CHECK(out.condition.alarm == Alarm::none);
+    LauvSupervisor::run({}, every_50_ms, under_way(11.5, 50, -20 * degree, 1), state, out);
+    CHECK(out.condition.alarm == Alarm::depth_limit);
   }
 
   TEST_CASE("the altitude is that above the floor, not along the beam") {
