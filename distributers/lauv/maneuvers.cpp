@@ -17,8 +17,7 @@ namespace {
 using tasks::Course;
 using tasks::Leg;
 
-constexpr double furthest = 100e3;  // m, from the origin: the ground is flat there
-constexpr double min_step = 1e-3;   // m across, of a curve of rows
+constexpr double min_step = 1e-3;  // m across, of a curve of rows
 constexpr std::size_t max_legs = 1000;
 
 [[noreturn]] void refuse(const std::string& text) { throw std::invalid_argument(text); }
@@ -40,9 +39,10 @@ double angle(double value, const char* name, double max = 2 * pi) {
   return value;
 }
 
-void refuse_far(const Leg& leg) {
-  if (const double far = std::hypot(leg.north, leg.east); far > furthest)
-    refuse(fmt::format("its place is {:.0f} km from the origin; places within 100 km are gone to", far / 1000));
+void refuse_far(const Leg& leg, const Origin& origin) {
+  if (const double far = std::hypot(leg.north, leg.east); far > origin.furthest)
+    refuse(fmt::format("its place is {:.0f} km from the origin; places within {:.0f} km are gone to", far / 1000,
+                       origin.furthest / 1000));
 }
 
 // The vehicle can't follow a smaller circle than the usual one; DUNE widens them, too.
@@ -86,7 +86,7 @@ Legs legs_of(const imc::FollowPath& m, const Sea& sea) {
     Leg leg = start;
     leg.north += finite(static_cast<double>(x), "x of a point");
     leg.east += finite(static_cast<double>(y), "y of a point");
-    refuse_far(leg);
+    refuse_far(leg, sea.origin);
     const double down = finite(static_cast<double>(z), "z of a point");
     leg.level += leg.vertical == tasks::Vertical::depth ? down : -down;
     if (leg.level < 0) refuse(fmt::format("point {} is {:.6g} m above the surface", legs.size() + 1, -leg.level));
@@ -107,6 +107,8 @@ Legs legs_of(const imc::Rows& m, const Sea& sea) {
              step = finite(static_cast<double>(m.hstep), "hstep");
   if (!(length > 0) || !(step > 0) || width < 0)
     refuse(fmt::format("rows of {:.6g} m, {:.6g} m apart over {:.6g} m; lengths are positive", length, step, width));
+  // the second step would go back
+  if (m.alternation > 200) refuse(fmt::format("alternation is {} %; it is at most 200 %, of hstep", m.alternation));
   const bool square = (m.flags & imc::Rows::Flags::SQUARE_CURVE) != 0;
   const double side = (m.flags & imc::Rows::Flags::CURVE_RIGHT) != 0 ? 1 : -1;
   const double along = angle(m.bearing, "bearing"),
@@ -117,7 +119,7 @@ Legs legs_of(const imc::Rows& m, const Sea& sea) {
     Leg leg = corner;
     leg.north += a * std::cos(along) + b * std::cos(across);
     leg.east += a * std::sin(along) + b * std::sin(across);
-    refuse_far(leg);
+    refuse_far(leg, sea.origin);
     legs.push_back({leg});
   };
   const double out = m.coff, share = 0.01 * m.alternation;
@@ -218,7 +220,10 @@ bool take(const messages::Message& message, const Sea& sea, Maneuver& to) {
   const M* m = message.as<M>();
   if (m == nullptr) return false;
   to.legs = legs_of(*m, sea);
-  if constexpr (requires { m->timeout; }) to.timeout = finite(static_cast<double>(m->timeout), "timeout");
+  if constexpr (requires { m->timeout; }) {
+    to.timeout = finite(static_cast<double>(m->timeout), "timeout");
+    if (to.timeout < 0) refuse(fmt::format("timeout is {:.6g} s; it can't be negative", to.timeout));
+  }
   if constexpr (requires { m->control_src; }) {
     to.control_source = m->control_src;
     to.control_entity = m->control_ent;
@@ -239,7 +244,7 @@ void set_place(Leg& leg, double latitude, double longitude, const Origin& origin
   const EarthRadii radii = earth_radii(origin.latitude);
   leg.north = (angle(latitude, "lat", pi / 2) - origin.latitude) * radii.north;
   leg.east = wrapped(angle(longitude, "lon") - origin.longitude) * radii.east;
-  refuse_far(leg);
+  refuse_far(leg, origin);
 }
 
 void set_level(Leg& leg, double z, std::uint8_t units, const FlightLimits& limits, const char* name) {

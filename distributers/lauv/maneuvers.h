@@ -13,6 +13,7 @@ namespace jarol::distributers {
 /// Where north and east are measured from: latitude and longitude in rad, WGS-84.
 struct Origin {
   double latitude = 0, longitude = 0;
+  double furthest = 100e3;  // m, of places that are gone to: the ground is flat there
 };
 
 struct PlannedLeg {

@@ -47,12 +47,13 @@ struct LauvOperatorParameters {
 
 /// The newest command wins: a Desired... has the autopilot steer, a RemoteActions the operator's hand, a PlanControl a
 /// plan, an Abort stops the propeller, so that the vehicle comes up. An Abort, and the stop of a plan or maneuver, also
-/// has an alarm of the vehicle forgotten whose cause is gone; until then its state is an error. While a plan runs a
-/// stick that rests counts for nothing, as the vehicle's DUNE has it: only in its Teleoperation does a hand steer, and
-/// nobody has to be heard. Astern it is driven at the surface only. Another who has the link now is the operator from
-/// when it commands: until then it is the one before that is silent. What is asked is answered at the next instant.
-/// While the vehicle is brought to rest at the end of a run no plan begins; a stop is obeyed in place of what brings it
-/// there. No plan goes by places while nobody knows where the vehicle is, nor by altitudes where it has no altimeter.
+/// has an alarm of the vehicle forgotten whose cause is gone; until then its state is an error, without control loops.
+/// While a plan runs a stick that rests counts for nothing, as the vehicle's DUNE has it: only in its Teleoperation
+/// does a hand steer, and nobody has to be heard. Astern it is driven at the surface only. Another who has the link now
+/// is the operator from when it commands: until then it is the one before that is silent. What is asked is answered at
+/// the next instant. While the vehicle is brought to rest at the end of a run no plan begins; a stop is obeyed in place
+/// of what brings it there. No plan goes by places while nobody knows where the vehicle is, nor by altitudes where it
+/// has no altimeter.
 class LauvOperator {
  public:
   static constexpr std::string_view summary = "the submarine's operator, over IMC";
@@ -163,6 +164,7 @@ class LauvOperator {
 
   // of plans; each returns why not, or nothing
   std::string start_plan(const imc::PlanControl& request, std::uint16_t who);
+  std::string find_unflyable(const imc::PlanSpecification& plan, const Origin& origin) const;
   std::string load_plan(const imc::PlanControl& request, std::uint16_t who);
   std::string execute(Plan plan);
   void end_plan(const std::string& why);

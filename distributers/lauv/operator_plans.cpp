@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <stdexcept>
 
 #include "distributers/lauv/messages.h"
@@ -62,14 +63,21 @@ void LauvOperator::plan_control(const imc::PlanControl& plan, const From& from) 
   answered_.note(id, answers_.back().message);
 }
 
+std::string LauvOperator::find_unflyable(const imc::PlanSpecification& plan, const Origin& origin) const {
+  try {
+    const Plan made = make_plan(plan, origin, parameters_.limits);
+    for (const Maneuver& each : made.maneuvers)
+      if (!has_altimeter() && needs_altitude(each)) return fmt::format("maneuver '{}': {}", each.name, no_altimeter);
+  } catch (const std::invalid_argument& error) { return error.what(); }
+  return "";
+}
+
 // A plan in the request is stored and loaded; without one it is the stored plan of that name.
 std::string LauvOperator::load_plan(const imc::PlanControl& request, std::uint16_t who) {
   if (request.arg.empty()) {
     const imc::PlanSpecification* const stored = plans_.find(request.plan_id.view());
     if (stored == nullptr) return fmt::format("no plan '{}' is stored here", request.plan_id.view());
-    try {
-      static_cast<void>(make_plan(*stored, origin_, parameters_.limits));
-    } catch (const std::invalid_argument& error) { return error.what(); }
+    if (std::string why_not = find_unflyable(*stored, origin_); !why_not.empty()) return why_not;
     loaded_ = *stored;
     loaded_->plan_id = request.plan_id;
     return "";
@@ -79,9 +87,7 @@ std::string LauvOperator::load_plan(const imc::PlanControl& request, std::uint16
   if (!messages::take_inline(imc::message_set(), request.arg, opened, &why)) return "the plan can't be read: " + why;
   const auto* plan = opened.as<imc::PlanSpecification>();
   if (plan == nullptr) return fmt::format("{} is no plan", opened.descriptor()->name);
-  try {
-    static_cast<void>(make_plan(*plan, origin_, parameters_.limits));
-  } catch (const std::invalid_argument& error) { return error.what(); }
+  if (std::string why_not = find_unflyable(*plan, origin_); !why_not.empty()) return why_not;
   const auto name = request.plan_id.empty() ? plan->plan_id.view() : request.plan_id.view();
   if (std::string why_not = plans_.set(name, *plan, who, unix_time()); !why_not.empty()) return why_not;
   loaded_ = *plan;
@@ -193,8 +199,19 @@ void LauvOperator::finish_teleoperation() {
 }
 
 void LauvOperator::plan_db(const imc::PlanDB& request, const From& from) {
+  using Op = imc::PlanDB::Op;
   if (request.type != imc::PlanDB::Type::REQUEST) return;
-  answer(plans_.answer(request, system_of(from), unix_time()), plan_entity, from);
+  const bool changes = request.op == Op::SET || request.op == Op::DEL || request.op == Op::CLEAR;
+  const std::optional<RequestId> id = changes ? id_of(request, request.op, from) : std::nullopt;
+  if (answer_again(id, from)) return;
+  // it may be for where the vehicle will be
+  const Origin anywhere{origin_.latitude, origin_.longitude, std::numeric_limits<double>::infinity()};
+  const auto check = [&](const imc::PlanSpecification& plan) { return find_unflyable(plan, anywhere); };
+  const imc::PlanDB reply = plans_.answer(request, system_of(from), unix_time(), check);
+  if (request.op == Op::SET && reply.type == imc::PlanDB::Type::FAILURE)
+    refuse(fmt::format("plan '{}' is not stored: {}", request.plan_id.view(), reply.info.view()));
+  answer(reply, plan_entity, from);
+  answered_.note(id, answers_.back().message);
 }
 
 void LauvOperator::vehicle_command(const imc::VehicleCommand& command, const From& from) {

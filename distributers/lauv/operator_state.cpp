@@ -146,8 +146,11 @@ void LauvOperator::send_vehicle_state(messages::Receiver& system) const {
       break;
   }
   if (state.maneuver_type != 0xffff) state.maneuver_stime = maneuver_start_;
-  // whatever the operator commands but a stop, it comes up
+  // whatever the operator commands but a stop, it comes up: no loop follows a command, no maneuver is flown
   if (alarm_ != tasks::Alarm::none) {
+    state.control_loops = 0;
+    state.maneuver_type = state.maneuver_eta = 0xffff;
+    state.maneuver_stime = 0;
     state.op_mode = imc::VehicleState::OpMode::ERROR;
     state.error_count = 1;
     state.error_ents = entities_known[supervisor_entity];

@@ -55,6 +55,7 @@ void PlanRun::begin_maneuver(std::size_t which, const tasks::Motion& motion, Dur
 void PlanRun::begin_leg(const tasks::Leg& leg) {
   leg_ = leg;
   leg_.number = ++number_;
+  headway_ = {};
 }
 
 void PlanRun::begin_leg(const tasks::Motion& motion) {
@@ -100,7 +101,12 @@ bool PlanRun::note(const tasks::Progress& progress, const tasks::Motion& motion,
     begin_leg(follower_->leg());
     return true;
   }
-  if (!progress.done) return false;
+  if (!progress.done) {
+    const std::string lost = headway_.note(leg_, progress, motion, now);
+    if (lost.empty()) return false;
+    end(Outcome::failure, fmt::format("maneuver '{}': {}", maneuver().name, lost));
+    return true;
+  }
   if (++leg_at_ < maneuver().legs.size())
     begin_leg(motion);
   else

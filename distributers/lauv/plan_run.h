@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "distributers/lauv/headway.h"
 #include "distributers/lauv/plan.h"
 #include "distributers/lauv/reference_follower.h"
 #include "graph/language/quantities.h"
@@ -25,7 +26,7 @@ class PlanRun {
 
   /// What the vehicle is to follow; without a course while a maneuver has no leg.
   const tasks::Leg& leg() const { return leg_; }
-  /// How far it is on the leg. True: there is another leg, or the plan is over.
+  /// How far it is on the leg. True: there is another leg, or the plan is over; one without headway has failed.
   bool note(const tasks::Progress& progress, const tasks::Motion& motion, Duration now);
   /// Time passes. True as above.
   bool pass(Duration now);
@@ -66,6 +67,7 @@ class PlanRun {
   std::uint32_t number_ = 0;
   Duration maneuver_start_{};
   double left_ = -1;
+  Headway headway_;  // on the leg
   std::optional<ReferenceFollower> follower_;
   Outcome outcome_ = Outcome::none;
   std::string why_;

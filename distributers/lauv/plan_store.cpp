@@ -14,12 +14,12 @@ std::string lacks(std::string_view name) { return fmt::format("no plan '{}' is s
 
 }  // namespace
 
-imc::PlanDB PlanStore::answer(const imc::PlanDB& request, std::uint16_t system, double time) {
+imc::PlanDB PlanStore::answer(const imc::PlanDB& request, std::uint16_t system, double time, const Check& check) {
   imc::PlanDB reply;
   reply.op = request.op;
   reply.request_id = request.request_id;
   reply.plan_id = request.plan_id;
-  const std::string why_not = carry_out(request, system, time, reply.arg);
+  const std::string why_not = carry_out(request, system, time, check, reply.arg);
   reply.type = why_not.empty() ? imc::PlanDB::Type::SUCCESS : imc::PlanDB::Type::FAILURE;
   reply.info = why_not;
   return reply;
@@ -48,7 +48,7 @@ const imc::PlanSpecification* PlanStore::find(std::string_view name) const {
 }
 
 // Why not, or nothing.
-std::string PlanStore::carry_out(const imc::PlanDB& request, std::uint16_t system, double time,
+std::string PlanStore::carry_out(const imc::PlanDB& request, std::uint16_t system, double time, const Check& check,
                                  messages::InlineMessage& result) {
   using Op = imc::PlanDB::Op;
   const auto put = [&result](const auto& message) {
@@ -63,7 +63,10 @@ std::string PlanStore::carry_out(const imc::PlanDB& request, std::uint16_t syste
       std::string why;
       if (!messages::take_inline(imc::message_set(), request.arg, plan, &why)) return "the plan can't be read: " + why;
       const auto* specification = plan.as<imc::PlanSpecification>();
-      return specification == nullptr ? "there is no PlanSpecification in it" : set(name, *specification, system, time);
+      if (specification == nullptr) return "there is no PlanSpecification in it";
+      if (const std::string why_not = check(*specification); !why_not.empty())
+        return found == plans_.end() ? why_not : why_not + "; the plan of that name that is stored stays";
+      return set(name, *specification, system, time);
     }
     case Op::DEL:
       if (found == plans_.end()) return lacks(name);

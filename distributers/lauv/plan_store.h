@@ -14,10 +14,14 @@ namespace jarol::distributers {
 /// Of its sizes those of the payloads are known; the MD5 sums that IMC has for comparing plans are left empty.
 class PlanStore {
  public:
-  /// Answers a request. Changes are by that system, at that time in s since 1970.
-  messages::imc::PlanDB answer(const messages::imc::PlanDB& request, std::uint16_t system, double time);
+  /// Why a plan can't be flown, or nothing.
+  using Check = std::function<std::string(const messages::imc::PlanSpecification&)>;
 
-  /// Stores it under that name. Why not, or nothing.
+  /// Answers a request. Changes are by that system, at that time in s since 1970; what can't be flown is not stored.
+  messages::imc::PlanDB answer(const messages::imc::PlanDB& request, std::uint16_t system, double time,
+                               const Check& check);
+
+  /// Stores it under that name, unchecked. Why not, or nothing.
   std::string set(std::string_view name, const messages::imc::PlanSpecification& plan, std::uint16_t system,
                   double time);
   /// Null: there is none of that name.
@@ -29,7 +33,7 @@ class PlanStore {
     messages::imc::PlanDBInformation information;
   };
 
-  std::string carry_out(const messages::imc::PlanDB& request, std::uint16_t system, double time,
+  std::string carry_out(const messages::imc::PlanDB& request, std::uint16_t system, double time, const Check& check,
                         messages::InlineMessage& result);
   messages::imc::PlanDBState state(bool detailed) const;
 

@@ -12,7 +12,6 @@ using State = LauvGuidance::State;
 
 constexpr double slowest = 0.1;            // m/s, of which times and drift are reckoned
 constexpr double sharpest = 100 * degree;  // turn that is prepared
-constexpr double surface_share = 2.5;      // of a station's radius: so far it is kept, and come back to at the surface
 
 void begin(const Param& p, const In& in, State& state) {
   const bool joins = state.has_end && std::hypot(in.motion.x - state.end_x, in.motion.y - state.end_y) <
@@ -110,7 +109,7 @@ double keep_station(const Param& p, const In& in, State& state, Progress& progre
 // Farther off its circle or station than what it swings about them: its time there does not count on.
 bool is_swept_away(const Param& p, const Leg& leg, const Progress& progress) {
   if (leg.course == Course::circle) return std::abs(progress.cross_track) > p.miss;
-  return leg.course == Course::station && progress.distance > surface_share * std::max(leg.radius, p.reach);
+  return leg.course == Course::station && progress.distance > station_share * std::max(leg.radius, p.reach);
 }
 
 bool level_is_known(const In& in) { return in.leg.vertical == Vertical::depth || in.instruments.altitude.count > 0; }
@@ -156,7 +155,7 @@ void LauvGuidance::run(const Param& p, const Tick& tick, const In& in, State& st
     case Course::station:
       to.heading = crab(in, keep_station(p, in, state, progress));
       drives = state.drifted;
-      if ((state.arrived || progress.near) && progress.distance < surface_share * leg.radius) to.depth = 0;
+      if ((state.arrived || progress.near) && progress.distance < station_share * leg.radius) to.depth = 0;
       break;
     case Course::fix:
     case Course::rest:

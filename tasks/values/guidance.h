@@ -29,6 +29,9 @@ constexpr auto enumerators(Vertical) {
   return std::array<Enumerator<Vertical>, 2>{{{"depth", Vertical::depth}, {"altitude", Vertical::altitude}}};
 }
 
+/// A station is kept within so many of its radii: so far off its time goes on, and it is come back to at the surface.
+constexpr double station_share = 2.5;
+
 /// A part of a maneuver. One with another number is another leg, and begins anew.
 struct Leg {
   std::uint32_t number = 0;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "graph/math/geometry.h"
+#include "tests/distributers/lauv/inline_messages.h"
 #include "tests/tools/lauv_mission.h"
 
 namespace {
@@ -53,6 +54,20 @@ std::string floor_at(double depth) {
   return "distributers.dune.link.parameters.sea.floor=" + std::to_string(depth) + " m";
 }
 
+// At the origin, 2 m deep.
+template <class M>
+imc::PlanControl start_at_origin(M m, double speed) {
+  m.lat = LauvOperatorParameters{}.latitude;
+  m.lon = LauvOperatorParameters{}.longitude;
+  m.z = 2;
+  m.z_units = imc::ZUnits::DEPTH;
+  m.speed = static_cast<float>(speed);
+  imc::PlanControl request;
+  request.plan_id = "p";
+  request.arg = packed(m);
+  return request;
+}
+
 double top_speed(const std::string& profile) { return profile == "submarine_dune" ? 1.79 : 2; }
 }  // namespace
 
@@ -75,6 +90,18 @@ TEST_SUITE("tools/lauv_limits") {
     }
   }
 
+  TEST_CASE(
+      "at the surface of water that is 40 cm deeper than its limit waves and noise are no alarm, at rest or ahead") {
+    for (const double speed : {0.0, 0.5, 0.8, 1.2}) {
+      for (const std::uint64_t seed : {1, 2, 3}) {
+        CAPTURE(speed);
+        CAPTURE(seed);
+        const tasks::Setpoint ahead{.heading = 40 * degree, .speed = speed};
+        CHECK(sail("at_sea", {floor_at(2.4)}, "neptus.setpoint", ahead, 60s, seed).alarm == tasks::Alarm::none);
+      }
+    }
+  }
+
   TEST_CASE("plans at the limits less their margin have no alarm, level, up and down or in circles, in waves too") {
     using tasks::Course;
     using tasks::Vertical;
@@ -90,18 +117,6 @@ TEST_SUITE("tools/lauv_limits") {
         if (speed < 1 && !in_full) continue;
         for (tasks::Leg leg : legs) {
           leg.number = 1;
-  TEST_CASE(
-      "at the surface of water that is 40 cm deeper than its limit waves and noise are no alarm, at rest or ahead") {
-    for (const double speed : {0.0, 0.5, 0.8, 1.2}) {
-      for (const std::uint64_t seed : {1, 2, 3}) {
-        CAPTURE(speed);
-        CAPTURE(seed);
-        const tasks::Setpoint ahead{.heading = 40 * degree, .speed = speed};
-        CHECK(sail("at_sea", {floor_at(2.4)}, "neptus.setpoint", ahead, 60s, seed).alarm == tasks::Alarm::none);
-      }
-    }
-  }
-
           leg.surge = speed;
           CAPTURE(profile);
           CAPTURE(speed);
@@ -115,6 +130,29 @@ TEST_SUITE("tools/lauv_limits") {
             CHECK(reached.depth > (by_depth ? speed < 1 ? 1.0 : 11.0 : 1.0));
           }
         }
+      }
+    }
+  }
+
+  TEST_CASE("a plan against a current that it can't stem ends as failed, within minutes; in a weaker one it is flown") {
+    imc::StationKeeping station;
+    station.radius = 15;
+    station.duration = 120;
+    imc::Loiter loiter;
+    loiter.radius = 15;
+    loiter.duration = 120;
+    for (const auto& request :
+         {start_at_origin(station, 1), start_at_origin(loiter, 1), start_at_origin(imc::Goto{}, 1)}) {
+      for (const double current : {0.6, 1.5}) {
+        CAPTURE(request.arg.id);
+        CAPTURE(current);
+        Mission mission({"distributers.dune.link.parameters.sea.current_east=" + std::to_string(current) + " m/s"});
+        mission.fly(30s);
+        mission.say(request);
+        CHECK(mission.fly(current > 1 ? 400s : 900s, [&] { return mission.is_over() && mission.now() > 31s; }));
+        using Outcome = imc::PlanControlState::LastOutcome;
+        CHECK(mission.plan().last_outcome == (current > 1 ? Outcome::FAILURE : Outcome::SUCCESS));
+        MESSAGE(seconds(mission.now()) << " s, " << mission.console.to.last<imc::VehicleState>().last_error.view());
       }
     }
   }

@@ -242,6 +242,18 @@ TEST_SUITE("distributers/lauv_maneuvers") {
     CHECK(legs[1].leg.level == 3);
   }
 
+  TEST_CASE("rows that would go back across, and a time-out below zero, are refused") {
+    auto rows = at<imc::Rows>(0, 0);
+    rows.length = 50;
+    rows.alternation = 200;
+    CHECK_NOTHROW(made(rows));
+    rows.alternation = 201;
+    CHECK_THROWS_WITH_AS(made(rows), "alternation is 201 %; it is at most 200 %, of hstep", std::invalid_argument);
+    imc::FollowReference follow;
+    follow.timeout = -1;
+    CHECK_THROWS_WITH_AS(made(follow), "timeout is -1 s; it can't be negative", std::invalid_argument);
+  }
+
   TEST_CASE("what can't be flown is refused in words") {
     const auto refuses = [](const auto& m, const char* why) {
       CHECK_THROWS_WITH_AS(made(m), why, std::invalid_argument);

@@ -216,6 +216,18 @@ TEST_SUITE("distributers/lauv/operator_places") {
     CHECK(c.start_of(m) == "");
     c.report(with_altitude(0, -1, 1));
     CHECK(c.start_of(m) == "the vehicle has no altimeter: no altitude can be kept");
+    imc::PlanManeuver named;
+    named.maneuver_id = "low";
+    named.data = packed(m);
+    imc::PlanSpecification plan;
+    plan.start_man_id = "low";
+    plan.maneuvers.push_back(packed(named));
+    imc::PlanDB store;
+    store.plan_id = "p";
+    store.arg = packed(plan);
+    c.say(store);
+    c.pass(50ms);
+    CHECK(c.to.last<imc::PlanDB>().info == "maneuver 'low': the vehicle has no altimeter: no altitude can be kept");
     imc::FollowReference follow;
     follow.control_src = 0xffff;
     follow.control_ent = 0xff;

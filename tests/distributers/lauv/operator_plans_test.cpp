@@ -9,10 +9,10 @@ namespace {
 using namespace jarol;
 using namespace jarol::tests;
 
-// One maneuver: go down at the origin.
-imc::PlanSpecification dive_plan(const char* name, float depth) {
+// One maneuver: go down at the origin, or north of it.
+imc::PlanSpecification dive_plan(const char* name, float depth, double latitude = LauvOperatorParameters{}.latitude) {
   imc::Goto there;
-  there.lat = LauvOperatorParameters{}.latitude;
+  there.lat = latitude;
   there.lon = LauvOperatorParameters{}.longitude;
   there.z = depth;
   there.z_units = imc::ZUnits::DEPTH;
@@ -141,12 +141,31 @@ TEST_SUITE("distributers/lauv_operator_plans") {
     CHECK(p.name() == "deep");
   }
 
-  TEST_CASE("a stored plan that can't be flown is not loaded, and what was loaded stays") {
+  TEST_CASE("a plan that can't be flown is not stored, and the one of its name that is stored stays") {
+    Planner p;
+    CHECK(p.store("dive", dive_plan("dive", 13)) == "maneuver 'dive': z is 13 m; depths are at most 11.5 m");
+    CHECK(p.to.last<imc::PlanDB>().type == imc::PlanDB::Type::FAILURE);
+    CHECK(p.to.last<imc::LogBookEntry>().text ==
+          "plan 'dive' is not stored: maneuver 'dive': z is 13 m; depths are at most 11.5 m");
+    CHECK(p.start("dive") == "no plan 'dive' is stored here");
+    CHECK(p.store("none", imc::PlanSpecification{}) == "the plan has no maneuver");
+    CHECK(p.store("dive", dive_plan("dive", 3)) == "");
+    CHECK(p.store("dive", dive_plan("dive", -1)) ==
+          "maneuver 'dive': z is -1 m; depths and altitudes are not negative; the plan of that name that is stored "
+          "stays");
+    CHECK(p.start("dive") == "");
+    CHECK(p.depth() == 3);
+  }
+
+  TEST_CASE("a plan is stored where places may be anywhere, and loaded where they may not") {
     Planner p;
     CHECK(p.load("good", packed(dive_plan("good", 3))) == "");
-    CHECK(p.store("bad", dive_plan("bad", -1)) == "");
-    CHECK(p.load("bad") == "maneuver 'dive': z is -1 m; depths and altitudes are not negative");
-    CHECK(p.start("bad") == "maneuver 'dive': z is -1 m; depths and altitudes are not negative");
+    const double north = LauvOperatorParameters{}.latitude + 0.1;
+    CHECK(p.store("far", dive_plan("far", 3, north)) == "");
+    const char* const why = "maneuver 'dive': its place is 636 km from the origin; places within 100 km are gone to";
+    CHECK(p.load("far") == why);
+    CHECK(p.start("far") == why);
+    CHECK(p.load("far", packed(dive_plan("far", 3, north))) == why);
     CHECK(p.op_mode() == OpMode::SERVICE);
     CHECK(p.start("") == "");
     CHECK(p.depth() == 3);

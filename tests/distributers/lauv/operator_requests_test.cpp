@@ -88,6 +88,38 @@ TEST_SUITE("distributers/lauv/operator_requests") {
     CHECK(c.begun() == 4);
   }
 
+  TEST_CASE("a change of the stored plans that comes twice changes them once") {
+    Sender c;
+    const auto request = [](std::uint8_t op) {
+      imc::PlanDB made;
+      made.op = op;
+      made.request_id = 5;
+      made.plan_id = "p";
+      imc::PlanManeuver named;
+      named.maneuver_id = "m";
+      named.data = packed(ahead());
+      imc::PlanSpecification plan;
+      plan.start_man_id = "m";
+      plan.maneuvers.push_back(packed(named));
+      if (op == imc::PlanDB::Op::SET) made.arg = packed(plan);
+      return made;
+    };
+    using Op = imc::PlanDB::Op;
+    const auto is_stored = [&](double time) {
+      c.send(request(Op::GET), time);
+      return c.to.last<imc::PlanDB>().type == imc::PlanDB::Type::SUCCESS;
+    };
+    c.send(request(Op::SET), 1);
+    CHECK(is_stored(9));
+    c.send(request(Op::DEL), 2);
+    c.send(request(Op::SET), 1);
+    CHECK(c.to.last<imc::PlanDB>().type == imc::PlanDB::Type::SUCCESS);
+    CHECK_FALSE(is_stored(9));  // what only asks is answered anew
+    c.send(request(Op::SET), 3);
+    c.send(request(Op::DEL), 2);
+    CHECK(is_stored(9));
+  }
+
   TEST_CASE("what was refused is refused again, with the same reason; a vehicle command is obeyed once too") {
     Sender c;
     c.send(c.control(imc::PlanControl::Op::GET), 5);

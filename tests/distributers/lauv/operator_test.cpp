@@ -82,6 +82,46 @@ TEST_SUITE("distributers/lauv_operator") {
     CHECK(c.silence() == 0);
   }
 
+  TEST_CASE("a negative depth is the surface, a negative speed none, and the log book says so") {
+    Conversation c;
+    c.say(imc::DesiredZ{3, imc::ZUnits::DEPTH});
+    c.say(imc::DesiredZ{-2, imc::ZUnits::DEPTH});
+    c.pass(50ms);
+    CHECK(c.setpoint().depth == 0);
+    CHECK(c.to.last<imc::LogBookEntry>().text == "DesiredZ is -2 m; depths are not negative: it goes to the surface");
+    c.say(imc::DesiredSpeed{-1, imc::SpeedUnits::METERS_PS});
+    c.pass(50ms);
+    CHECK(c.setpoint().speed == 0);
+    CHECK(c.to.last<imc::LogBookEntry>().text ==
+          "DesiredSpeed is negative; astern it goes by % only: the propeller stops");
+  }
+
+  TEST_CASE("while the vehicle comes up by itself no control loop of the operator is on, and no maneuver is flown") {
+    for (const bool by_hand : {false, true}) {
+      CAPTURE(by_hand);
+      Conversation c;
+      by_hand ? c.act("Thrust=50") : c.say(imc::DesiredSpeed{1, imc::SpeedUnits::METERS_PS});
+      c.pass(50ms);
+      CHECK(c.to.last<imc::VehicleState>().control_loops != 0);
+      c.report({.alarm = tasks::Alarm::leak});
+      for (const Duration time : {50ms, 3000ms}) {
+        // what is commanded meanwhile changes nothing
+        by_hand ? c.act("Thrust=60") : c.say(imc::DesiredSpeed{1.2, imc::SpeedUnits::METERS_PS});
+        c.pass(time);
+        const auto state = c.to.last<imc::VehicleState>();
+        CHECK(state.op_mode == OpMode::ERROR);
+        CHECK(state.control_loops == 0);
+        CHECK(state.maneuver_type == 0xffff);
+        CHECK(state.maneuver_stime == 0);
+        CHECK(state.maneuver_eta == 0xffff);
+      }
+      c.report({.alarm = tasks::Alarm::none});
+      c.say(imc::DesiredSpeed{1, imc::SpeedUnits::METERS_PS});
+      c.pass(50ms);
+      CHECK(c.to.last<imc::VehicleState>().control_loops != 0);
+    }
+  }
+
   TEST_CASE("another who has the link is the operator from when it commands, not from when it is heard") {
     for (const bool by_hand : {false, true}) {
       Conversation c;
