@@ -10,6 +10,13 @@ namespace {
 
 constexpr double gravity = 9.81;
 
+// It leans as far as its altitude has room for: the ground carries a part of it by one foot.
+bool stands_on_foot(const AltitudeControl::Param& p, const FlightEstimate& e) {
+  constexpr double level = 0.05, near = 0.01;  // rad, m
+  const double lean = std::max(std::abs(e.roll), std::abs(e.pitch));
+  return e.altitude_known && lean > level && e.altitude < p.foot * std::sin(lean) + near;
+}
+
 }  // namespace
 
 void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
@@ -94,12 +101,21 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     // never far below: on the ground it would wind down all at once
     state.z.place = std::max(state.z.place + state.z.speed * dt, e.altitude - 0.15);
   } else {
-    state.landing = 0;
+    state.landing = state.on_foot = 0;
     approach(state.z, d.altitude, p.approach, dt);
   }
   // sag of the battery, flow through the rotors, the ground: whatever thrust is lost or gained is felt at once
   const double felt = e.lift / gravity;
-  if (!quick) state.trim = std::clamp(state.trim + p.lift_bandwidth * dt * (1 + state.expected - felt), 0.4, 1.7);
+  const bool comes_down = d.state == FlightState::landing || settles;
+  if (!quick) {
+    // what a foot carries is no thrust: learnt as such it would let the vehicle fall onto its other feet; but light
+    // on its feet for long, wind turns it over
+    const bool on_foot = comes_down && stands_on_foot(p, e);
+    if (on_foot) state.on_foot += dt;
+    const double learnt =
+        on_foot ? -p.unload * state.on_foot * dt : p.lift_bandwidth * dt * (1 + state.expected - felt);
+    state.trim = std::clamp(state.trim + learnt, 0.4, 1.7);
+  }
   state.aloft = std::min(state.aloft + dt, 1.0);
   state.mean_trim += (state.trim - state.mean_trim) * dt / state.aloft;
   const double error = state.z.place - e.altitude;

@@ -56,29 +56,33 @@ struct AltitudeControl {
     double blind_gain = 0.15;
     double blind_ki = 0.1;
     double blind_speed = 0.25;
+    double foot = 0.2;
+    double unload = 0.8;
     QuickLanding quick{};
     static constexpr auto fields() {
       using P = Param;
-      return describe(field<&P::kp>("1/s^2", "acceleration per error of altitude"),
-                      field<&P::kd>("1/s", "acceleration per error of climb"),
-                      field<&P::ki>("1/s^3", "acceleration per integral of the error of altitude"),
-                      field<&P::lift_bandwidth>("rad/s", "at which thrust is learnt from the lift that is felt"),
-                      field<&P::lift_lag>("s", "until thrust demanded is felt"),
-                      field<&P::approach>("", "to a new altitude"),
-                      field<&P::idle>("", "thrust while standing ready, in parts of that of hover"),
-                      field<&P::light>("", "thrust below which the ground must carry"),
-                      field<&P::leaving>("", "thrust up to which it stands while that grows"),
-                      field<&P::lift_rate>("1/s", "at which thrust grows until it lifts off"),
-                      field<&P::descent>("m/s", "of a landing"), field<&P::touch_speed>("m/s", "of its last part"),
-                      field<&P::landing_time>("s",
-                                              "after which a landing is overdue: it may descend more slowly than "
-                                              "it believes"),
-                      field<&P::overdue>("m/s^2", "by which its last part gets faster then, up to twice its speed"),
-                      field<&P::spin_up>("s", "from rest to idle"),
-                      field<&P::blind_gain>("s/m", "thrust per error of descent when the IMU is lost"),
-                      field<&P::blind_ki>("1/m", "thrust per integral of that error"),
-                      field<&P::blind_speed>("m/s", "of descent then"),
-                      field<&P::quick>("", "when the IMU is lost, but lasers show how it leans"));
+      return describe(
+          field<&P::kp>("1/s^2", "acceleration per error of altitude"),
+          field<&P::kd>("1/s", "acceleration per error of climb"),
+          field<&P::ki>("1/s^3", "acceleration per integral of the error of altitude"),
+          field<&P::lift_bandwidth>("rad/s", "at which thrust is learnt from the lift that is felt"),
+          field<&P::lift_lag>("s", "until thrust demanded is felt"), field<&P::approach>("", "to a new altitude"),
+          field<&P::idle>("", "thrust while standing ready, in parts of that of hover"),
+          field<&P::light>("", "thrust below which the ground must carry"),
+          field<&P::leaving>("", "thrust up to which it stands while that grows"),
+          field<&P::lift_rate>("1/s", "at which thrust grows until it lifts off"),
+          field<&P::descent>("m/s", "of a landing"), field<&P::touch_speed>("m/s", "of its last part"),
+          field<&P::landing_time>("s",
+                                  "after which a landing is overdue: it may descend more slowly than "
+                                  "it believes"),
+          field<&P::overdue>("m/s^2", "by which its last part gets faster then, up to twice its speed"),
+          field<&P::spin_up>("s", "from rest to idle"),
+          field<&P::blind_gain>("s/m", "thrust per error of descent when the IMU is lost"),
+          field<&P::blind_ki>("1/m", "thrust per integral of that error"),
+          field<&P::blind_speed>("m/s", "of descent then"),
+          field<&P::foot>("m", "of a foot from the axis").in(0.01, 10),
+          field<&P::unload>("1/s^2", "at which thrust is taken back the faster, the longer it stands on one foot"),
+          field<&P::quick>("", "when the IMU is lost, but lasers show how it leans"));
     }
   };
   struct In {
@@ -95,7 +99,7 @@ struct AltitudeControl {
     double trim = 0, mean_trim = 0;
     double expected = 0;
     double sunk = 0, blind_trim = 0, blind_cut = 0, aloft = 0;
-    double landing = 0;
+    double landing = 0, on_foot = 0;
     bool lifted = false;
     static constexpr auto fields() {
       using S = State;
@@ -106,7 +110,7 @@ struct AltitudeControl {
                       field<&S::blind_trim>("", "correction of the mean, learnt blind"),
                       field<&S::blind_cut>("", "thrust that is taken back, blind"),
                       field<&S::aloft>("s", "over which that mean is, up to 1: 0.4 of hover's at first"),
-                      field<&S::landing>("s", "since it began to land"),
+                      field<&S::landing>("s", "since it began to land"), field<&S::on_foot>("s", "of that on one foot"),
                       field<&S::lifted>("", "it has left the ground"));
     }
   };

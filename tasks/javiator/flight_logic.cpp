@@ -28,6 +28,18 @@ bool lies_over(const FlightLogic::Param& p, const FlightEstimate& e) {
          std::cos(e.roll) * std::cos(e.pitch) < std::cos(measures_lean(e) ? p.out_of_control : p.overturned);
 }
 
+// Once it descends, only the ground can stop it or take its weight.
+bool has_touched(const FlightLogic::Param& p, const FlightEstimate& e, double thrust) {
+  const bool still = e.altitude_known && e.altitude < 0.5 && std::abs(e.climb) < p.still;
+  return still || thrust < p.light;
+}
+
+// One that leans may stand on one foot, and would fall onto the others with its motors off; one with all of its thrust
+// may hover for a moment. Without an IMU nobody knows, and it had better end.
+bool may_fall(const FlightLogic::Param& p, const FlightEstimate& e, double thrust) {
+  return e.rates_known && (std::hypot(e.roll, e.pitch) > p.level || thrust > p.carried);
+}
+
 // Its rotors give what they can, and it does not rise.
 bool lacks_lift(const FlightLogic::Param& p, const FlightLogic::In& in, const FlightDirective& d) {
   constexpr double below = 0.1, slow = 0.05;  // m, m/s
@@ -190,9 +202,8 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
         d.cause = cause;
         if (cause == Cause::position_lost) d.yaw = find_yaw(cause, e, wants_position);
       }
-    // once it descends, only the ground can stop it or take its weight
-    const bool still = e.altitude_known && e.altitude < 0.5 && std::abs(e.climb) < p.still;
-    state.still = still || in.lift.thrust < p.light ? state.still + dt : 0;
+    const double counted = may_fall(p, e, in.lift.thrust) ? dt * p.touch_time / p.doubt_time : dt;
+    state.still = has_touched(p, e, in.lift.thrust) ? state.still + counted : 0;
     state.lies_over = lies_over(p, e) ? state.lies_over + dt : 0;
     // out of control it is better on the ground here than somewhere else; a lean that lasers show may be another
     if (state.lies_over > (measures_lean(e) ? p.out_of_control_time : p.touch_time))

@@ -31,7 +31,10 @@ struct FlightLogic {
     double answers_patience = 2.5;
     double still = 0.08;
     double light = 0.6;
+    double carried = 0.8;
+    double level = 0.07;
     double touch_time = 0.3;
+    double doubt_time = 1.5;
     double out_of_control = 0.8;
     double out_of_control_time = 0.1;
     double overturned = 1;
@@ -53,7 +56,10 @@ struct FlightLogic {
                                       "locked: less than until its `safe`, or they start again with what comes then"),
           field<&P::still>("m/s", "rate of descent below which it may have touched down"),
           field<&P::light>("", "thrust below which the ground must carry"),
+          field<&P::carried>("", "thrust above which it may hover where it is still").in(0, 10),
+          field<&P::level>("rad", "of lean, beyond which it may stand on one foot").in(0, std::numbers::pi),
           field<&P::touch_time>("s", "for which it is still or light when it has touched down"),
+          field<&P::doubt_time>("s", "the same, where it may do either").in(0.01, 100),
           field<&P::out_of_control>("rad",
                                     "of lean that the IMU shows, beyond which a landing ends with the motors locked")
               .in(0, std::numbers::pi),
@@ -90,7 +96,7 @@ struct FlightLogic {
       using S = State;
       return describe(field<&S::since>("s", "the state began"), field<&S::unheard>("s", "the operator was heard"),
                       field<&S::unanswered>("s", "the Robostix answered in time, and that was looked at"),
-                      field<&S::still>("s", "it has not moved up or down"),
+                      field<&S::still>("s", "it has been still or light, a part of that where it may fall"),
                       field<&S::lies_over>("s", "it has leant like one that has overturned"),
                       field<&S::without_lift>("s", "it has not risen at full thrust"),
                       field<&S::settles>("", "where it is, as it is to go to the ground"),

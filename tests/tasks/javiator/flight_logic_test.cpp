@@ -183,6 +183,7 @@ TEST_SUITE("tasks/flight_logic") {
     logic.press();
     CHECK(logic.run(100) == FlightState::landing);  // still, but not low
     logic.in.estimate.altitude = 0.01;
+    logic.in.lift.thrust = 0.7;
     CHECK(logic.run(25) == FlightState::ground);
 
     Logic blind;
@@ -490,8 +491,8 @@ TEST_SUITE("tasks/flight_logic") {
       double altitude, climb, thrust;
       bool landed;
     };
-    for (const Case& c : {Case{0.499, 0, 1, true}, Case{0.501, 0, 1, false}, Case{0.4, 0.079, 1, true},
-                          Case{0.4, 0.081, 1, false}, Case{0.4, -0.079, 1, true}, Case{0.4, -0.081, 1, false},
+    for (const Case& c : {Case{0.499, 0, 0.79, true}, Case{0.501, 0, 0.79, false}, Case{0.4, 0.079, 0.79, true},
+                          Case{0.4, 0.081, 0.79, false}, Case{0.4, -0.079, 0.79, true}, Case{0.4, -0.081, 0.79, false},
                           Case{1, -1, 0.599, true}, Case{1, -1, 0.601, false}}) {
       CAPTURE(c.altitude);
       CAPTURE(c.climb);
@@ -514,6 +515,7 @@ TEST_SUITE("tasks/flight_logic") {
     logic.press();
     logic.run(100);
     logic.in.estimate.altitude = 0.1;
+    logic.in.lift.thrust = 0.7;
     CHECK(logic.run(19) == FlightState::landing);
     logic.in.estimate.climb = -0.1;
     CHECK(logic.run(1) == FlightState::landing);
@@ -521,5 +523,31 @@ TEST_SUITE("tasks/flight_logic") {
     // the sum of twenty periods may lie a rounding above 0.3
     CHECK(logic.run(19) == FlightState::landing);
     CHECK(logic.run(2) == FlightState::ground);
+  }
+
+  TEST_CASE("one that leans by more than 0.07 rad, or has more than 0.8 of its thrust, has landed after 1.5 s") {
+    struct Case {
+      double roll, pitch, thrust;
+      bool rates_known, may_fall;
+    };
+    for (const Case& c : {Case{0, 0, 0.79, true, false}, Case{0, 0, 0.81, true, true}, Case{0.069, 0, 0.7, true, false},
+                          Case{-0.071, 0, 0.7, true, true}, Case{0, 0.071, 0.7, true, true},
+                          Case{0.06, -0.06, 0.5, true, true}, Case{0.3, 0, 1, false, false}}) {
+      CAPTURE(c.roll);
+      CAPTURE(c.pitch);
+      CAPTURE(c.thrust);
+      Logic logic;
+      logic.fly();
+      logic.press();
+      logic.run(100);
+      logic.in.estimate.altitude = 0.03;
+      logic.in.estimate.roll = c.roll;
+      logic.in.estimate.pitch = c.pitch;
+      logic.in.estimate.rates_known = c.rates_known;
+      logic.in.lift.thrust = c.thrust;
+      CHECK((logic.run(22) == FlightState::ground) != c.may_fall);  // 0.33 s
+      CHECK((logic.run(77) == FlightState::ground) != c.may_fall);  // 1.485 s
+      CHECK(logic.run(3) == FlightState::ground);
+    }
   }
 }

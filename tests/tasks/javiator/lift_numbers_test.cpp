@@ -112,6 +112,42 @@ TEST_SUITE("tasks/javiator_control/lift") {
     CHECK(a.state.trim == 0.4);
   }
 
+  TEST_CASE(
+      "landing on one foot, leaning, it does not learn what that carries, but takes thrust back, faster by 0.4/s each "
+      "second") {
+    const double learnt = 1 + 10 * dt * (1 - 1.5), foot = 0.2 * std::sin(0.2), near = 0.01;
+    Altitude landing;
+    landing.in.directive = {.state = FlightState::landing};
+    landing.in.estimate.roll = -0.2;
+    landing.in.estimate.altitude = foot + near - 1e-6;
+    landing.in.estimate.lift = 1.5 * gravity;
+    const auto trim_of = [](Altitude a) {
+      a.run();
+      return a.state.trim;
+    };
+    CHECK(trim_of(landing) == doctest::Approx(1 - 0.8 * dt * dt));
+    Altitude settling = landing, pitched = landing, high = landing, level = landing, unsure = landing;
+    settling.in.directive = {.state = FlightState::flying};
+    CHECK(trim_of(settling) == doctest::Approx(1 - 0.8 * dt * dt));
+    std::swap(pitched.in.estimate.roll, pitched.in.estimate.pitch);
+    CHECK(trim_of(pitched) == doctest::Approx(1 - 0.8 * dt * dt));
+    pitched.run(66);  // 0.99 s
+    CHECK(pitched.state.trim == doctest::Approx(1 - 0.5 * 0.8 * 0.99 * (0.99 + dt)));
+    high.in.estimate.altitude += 2e-6;
+    CHECK(trim_of(high) == doctest::Approx(learnt));
+    level.in.estimate.altitude = 0.2 * 0.049;
+    level.in.estimate.roll = 0.049;
+    CHECK(trim_of(level) == doctest::Approx(learnt));
+    unsure.in.estimate.altitude_known = false;
+    CHECK(trim_of(unsure) == doctest::Approx(learnt));
+    Altitude flying = landing;
+    flying.in.directive = {.state = FlightState::flying, .altitude = 1};
+    flying.state.on_foot = 1;
+    CHECK(trim_of(flying) == doctest::Approx(learnt));
+    flying.run();
+    CHECK(flying.state.on_foot == 0);
+  }
+
   TEST_CASE("what is demanded is felt after 0.06 s") {
     Altitude a;
     a.in.estimate.climb = 0.01;
