@@ -40,7 +40,7 @@ class AnyDistributer : public messages::Receiver {
   /// The run is over. Throws std::runtime_error if something can't be kept for the next one.
   virtual void finish() = 0;
 
-  /// How many of the messages that it has received it had a use for. Any thread.
+  /// How many of the messages that it has received a vehicle's had a use for; of others all count. Any thread.
   virtual std::uint64_t used() const = 0;
 
   /// Readings that were not finite; they are not in the values of `in` channels.

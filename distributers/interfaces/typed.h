@@ -33,9 +33,10 @@ class Typed final : public AnyDistributer {
   const messages::MessageSet& message_set() const override { return D::message_set(); }
   void receive(messages::MessageRef message) override {
     if constexpr (detail::has_any_message<D>) distributer_.any_message();
+    if constexpr (!D::is_vehicle) count_used();
     for (auto handler = find_handler(message.descriptor->id); handler->id == message.descriptor->id; ++handler) {
       if (handler->descriptor != message.descriptor) continue;
-      used_.store(used_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+      if constexpr (D::is_vehicle) count_used();
       return handler->call(distributer_, message);
     }
   }
@@ -99,6 +100,7 @@ class Typed final : public AnyDistributer {
   }
 
  private:
+  void count_used() { used_.store(used_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed); }
   static_assert(
       requires {
         { D::message_set() } -> std::same_as<const messages::MessageSet&>;

@@ -41,13 +41,13 @@ void LauvOperator::desired_z(const imc::DesiredZ& z) {
   if (mode_ != Mode::teleoperation && !use_autopilot()) return;
   // as DUNE, which goes no deeper than it may either
   const double wanted = static_cast<double>(z.value), max = parameters_.limits.max_depth - parameters_.limits.margin;
-  double& depth = in.setpoint.renew().depth;
   const double within = std::min(std::max(wanted, 0.0), max);
-  if (wanted > within && depth != within)
+  const bool is_new = std::exchange(wanted_depth_, wanted) != wanted;
+  if (wanted > within && is_new)
     refuse(fmt::format("DesiredZ is {:.6g} m; depths are at most {:.6g} m: it goes there", wanted, max));
-  if (wanted < within && depth != within)
+  if (wanted < within && is_new)
     refuse(fmt::format("DesiredZ is {:.6g} m; depths are not negative: it goes to the surface", wanted));
-  depth = within;
+  in.setpoint.renew().depth = within;
 }
 
 void LauvOperator::desired_heading(const imc::DesiredHeading& heading) {
@@ -71,7 +71,9 @@ void LauvOperator::desired_speed(const imc::DesiredSpeed& speed) {
   if (!use_autopilot()) return;
   tasks::Setpoint& setpoint = in.setpoint.renew();
   setpoint.drive = percent ? Drive::thrust : Drive::speed;
-  if (!percent && speed.value < 0) refuse("DesiredSpeed is negative; astern it goes by % only: the propeller stops");
+  const bool is_new = std::exchange(wanted_speed_, speed.value) != speed.value;
+  if (!percent && speed.value < 0 && is_new)
+    refuse("DesiredSpeed is negative; astern it goes by % only: the propeller stops");
   (percent ? setpoint.thrust : setpoint.speed) =
       percent ? std::clamp(speed.value / 100, -1.0, 1.0) : std::max(speed.value, 0.0);
   stop_astern();

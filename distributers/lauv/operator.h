@@ -214,14 +214,15 @@ class LauvOperator {
   bool has_commanded_ = true;  // who has the link now; else the vehicle goes by what another one has commanded
   std::uint32_t stops_ = 0;    // demanded by the operator
   tasks::Alarm alarm_ = tasks::Alarm::none;
-  double heading_ = 0;        // of the vehicle, as reported last
-  double depth_ = 0;          // likewise
-  tasks::Motion motion_;      // likewise
-  tasks::Stream stream_;      // likewise
-  tasks::Reading altitude_;   // likewise
-  Duration altitude_at_{};    // when it came
-  bool placeless_ = false;    // it has reported, and no fix yet
-  bool motion_sent_ = false;  // by channel `motion`, which has more than `report`
+  double heading_ = 0;                          // of the vehicle, as reported last
+  double depth_ = 0;                            // likewise
+  double wanted_depth_ = 0, wanted_speed_ = 0;  // by the last DesiredZ and DesiredSpeed, whether it goes there or not
+  tasks::Motion motion_;                        // likewise
+  tasks::Stream stream_;                        // likewise
+  tasks::Reading altitude_;                     // likewise
+  Duration altitude_at_{};                      // when it came
+  bool placeless_ = false;                      // it has reported, and no fix yet
+  bool motion_sent_ = false;                    // by channel `motion`, which has more than `report`
   bool mode_changed_ = true;
   std::optional<std::int64_t> second_;  // told for it
   messages::imc::AnnounceTimer announce_timer_;

@@ -27,7 +27,7 @@ void LinkedSystem::finish() {
   distributer_->finish();
 }
 
-// What it can't use may be its own, as from a line that echoes.
+// Of a vehicle what is of no use may be its own, as from a line that echoes.
 std::optional<LinkReport> LinkedSystem::link_report() const {
   LinkReport report = link_->report();
   report.heard = std::min(report.heard, distributer_->used());

@@ -27,7 +27,8 @@ std::unique_ptr<Transport> make_udp(const UdpSpec& spec, const Yaml& yaml, const
   if (listen && peer && listen.family() != peer.family())
     problems.add(spec.peer->where, "'" + spec.peer->value + "' can't be reached from '" + spec.listen->value +
                                        "': one is IPv4, the other IPv6");
-  if (listen && peer == listen && listen.port() != 0)
+  const bool is_itself = peer == listen || (listen.is_any() && peer.is_loopback());
+  if (listen && peer && is_itself && peer.port() == listen.port())
     problems.add(spec.peer->where,
                  "'" + spec.peer->value + "' is where this link listens itself; state where the other end does");
   try {

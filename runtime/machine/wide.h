@@ -1,7 +1,7 @@
-// Vectors of 32 bytes, which not every processor has. What is done with them ends the same without.
+// Vectors of 32 bytes, which not every processor has. Results are the same without them.
 #pragma once
 
-// Of functions that are called where has_wide_vectors alone.
+// Of functions that are called only if has_wide_vectors.
 #if defined(__x86_64__)
 #define JAROL_WIDE [[gnu::target("avx2")]]
 #else

@@ -46,7 +46,8 @@ bool is_moved(std::FILE* file, const std::string& path) {
   struct stat open {};
   struct stat there {};
   if (::fstat(fileno(file), &open) != 0 || !S_ISREG(open.st_mode)) return false;
-  return ::stat(path.c_str(), &there) != 0 || open.st_dev != there.st_dev || open.st_ino != there.st_ino;
+  if (::stat(path.c_str(), &there) != 0) return errno == ENOENT || errno == ENOTDIR;
+  return open.st_dev != there.st_dev || open.st_ino != there.st_ino;
 }
 
 [[noreturn]] void fail_to_write(const std::string& path, int reason) {
@@ -171,7 +172,7 @@ void RecordingParts::begin_next() {
   }
   try {
     finish();
-    close();
+    close_part();
   } catch (...) {
     std::fclose(next.file);
     throw;
@@ -190,15 +191,19 @@ void RecordingParts::finish() {
   } catch (const std::system_error& error) { fail(error.code().value()); }
 }
 
-void RecordingParts::close() {
-  const bool is_lost = is_moved(part_.file, part_.path);
+void RecordingParts::close_part() {
+  if (moved_.empty() && is_moved(part_.file, part_.path)) moved_ = part_.path;
   // what is in buffers goes out here at the latest, so that a full disk shows
   if (!sync(part_.file)) fail(errno);
   if (std::fclose(std::exchange(part_.file, nullptr)) != 0) fail(errno);
   sync_folder_of(part_.path);
-  if (is_lost)
-    throw std::runtime_error("'" + part_.path +
-                             "' was removed or replaced while it was written; the recording is lost");
+}
+
+void RecordingParts::close() {
+  close_part();
+  if (!moved_.empty())
+    throw std::runtime_error("'" + moved_ +
+                             "' is not there any more: it was moved, removed or replaced while it was written");
 }
 
 void RecordingParts::fail(int reason) const { fail_to_write(part_.path, reason); }

@@ -45,6 +45,7 @@ class RecordingParts {
   const std::string& stayed() const { return stayed_; }
   /// The summary of the last part; the system has all of it, the disk need not.
   void finish();
+  /// Throws std::runtime_error, too, if a part is not where it was made.
   void close();
 
  private:
@@ -57,6 +58,7 @@ class RecordingParts {
   void require_names() const;
   void begin_part(Part part);
   void begin_next();
+  void close_part();
   [[noreturn]] void fail(int reason) const;  // by errno
 
   const std::string path_;
@@ -65,6 +67,7 @@ class RecordingParts {
   std::vector<mcap::Schema> schemas_;
   std::vector<mcap::Channel> channels_;
   Part part_;
+  std::string moved_;  // the first part that is not where it was made
   std::string stayed_;
   std::optional<mcap::Writer> writer_;
 };

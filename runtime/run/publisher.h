@@ -8,10 +8,10 @@
 
 namespace jarol {
 
-/// Copies to all readers, `AtOnce` or later; returns the digest's part of the publications, if asked for.
+/// Copies to all readers, a few of them `AtOnce`; returns the digest's part of the publications, if asked for.
 template <bool Digest, bool AtOnce = false>
 [[gnu::always_inline]] inline std::uint64_t make_visible(const Publish& what, std::uint64_t digest_term) {
-  constexpr std::uint32_t many = 8;  // so that a call is worth its while
+  constexpr std::uint32_t many = 8;  // fewer of them cost less than a call
   std::uint64_t digest = 0;
   if (what.copies.count < many) [[likely]] {
     for (const Copy& c : what.copies) transfer<AtOnce>(c);

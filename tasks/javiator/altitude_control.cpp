@@ -111,7 +111,7 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     // what a foot carries is no thrust: learnt as such it would let the vehicle fall onto its other feet; but light
     // on its feet for long, wind turns it over
     const bool on_foot = comes_down && stands_on_foot(p, e);
-    if (on_foot) state.on_foot += dt;
+    state.on_foot = on_foot ? state.on_foot + dt : comes_down ? state.on_foot : 0;
     const double learnt =
         on_foot ? -p.unload * state.on_foot * dt : p.lift_bandwidth * dt * (1 + state.expected - felt);
     state.trim = std::clamp(state.trim + learnt, 0.4, 1.7);

@@ -19,17 +19,18 @@ constexpr std::int64_t longest_pause = 100;  // activations: after more of them 
 // A turn that was neither felt nor foreseen, while nothing was heard for longer than a few lost packets.
 constexpr double felt_gap = 0.1;   // s
 constexpr double unfelt_rate = 2;  // rad/s
+constexpr double nowhere = 1e9;    // m
 
 bool is_near(const AxisObserver& axis, double measured, double jump) { return std::abs(measured - axis.place) < jump; }
 
 // In one period.
-void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& in, JaviatorFilter::State& state,
-          JaviatorFilter::Out& out) {
+void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& in, bool was_left_out,
+          JaviatorFilter::State& state, JaviatorFilter::Out& out) {
   const JaviatorSensors& s = in.sensors;
   FlightEstimate& e = out.estimate;
   const bool fresh = s.answers != state.before.answers;
   state.before.answers = s.answers;
-  if (fresh && state.unanswered > p.patience) state.begins_anew = true;
+  if (fresh && state.unanswered > p.patience && !was_left_out) state.anew = {.begins = true, .first = nowhere};
   state.unanswered = fresh ? 0 : state.unanswered + dt;
   const double heard_dt = fresh ? dt : 0;
   const FlightState doing = in.directive.state;
@@ -143,16 +144,17 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
     forgive(state.pressure, new_pressure);
     if (new_pressure && state.pressure.repeats == 0) learn(state.ground, s.pressure, last_pressure);
     state.disagreement = 0;
-    state.begins_anew = false;
+    state.anew.begins = false;
   } else {
     predict(state.x, a.x(), dt);
     predict(state.y, a.y(), dt);
     predict(state.z, -a.z(), dt);
     predict(state.z_slow, -a.z(), dt);
-    if (state.begins_anew && (new_z || state.sonar.lost)) {
-      if (!state.sonar.lost) state.z = state.z_slow = {.place = z - state.zero_z, .since = dt};
+    if (state.anew.begins && (new_z || state.sonar.lost)) {
+      const double first = std::exchange(state.anew.first, z);
+      state.anew.begins = !state.sonar.lost && std::abs(z - first) > p.range_jump;  // one alone may be wrong
+      if (!state.anew.begins && !state.sonar.lost) state.z = state.z_slow = {.place = z - state.zero_z, .since = dt};
       state.disagreement = 0;
-      state.begins_anew = false;
     }
     const double jump = state.imu.lost && !is_blind ? p.range_jump : p.sonar_jump + p.sonar_jump_rate * state.z.since;
     const bool credible = new_z && is_near(state.z, z - state.zero_z, std::min(jump, p.range_jump));
@@ -165,7 +167,7 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
     compare_climb(state, p, dt);
     // no climb is that fast: a pressure that jumps is wrong
     if (new_pressure && std::abs(s.pressure - last_pressure) > credible_step(state, p)) state.pressure.lost = true;
-    if (believe(state.pressure, new_pressure, p.patience) && !state.begins_anew) weigh_pressure(state, p, s.pressure);
+    if (believe(state.pressure, new_pressure, p.patience) && !state.anew.begins) weigh_pressure(state, p, s.pressure);
     // what it has learnt of late may be what is wrong with the sonar
     const bool begins_to_repeat = new_z && p.sonar_repeats > 0 && state.sonar.repeats == p.sonar_repeats;
     if (had_sonar && (state.sonar.lost || begins_to_repeat)) {
@@ -246,10 +248,10 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
        .rates_known = !state.imu.lost && answers,
        .attitude_known = !state.imu.lost && !state.angles.lost,
        .lean_known = is_blind,
-       .altitude_known = !state.sonar.lost && !state.begins_anew,
+       .altitude_known = !state.sonar.lost,
        .position_known = !state.laser_x.lost && !state.laser_y.lost && unseen < p.unseen.patience,
        .pressure_known = !state.pressure.lost,
-       .answers_known = answers};
+       .answers_known = answers && !state.anew.begins};
 }
 
 }  // namespace
@@ -262,9 +264,9 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     // as if no answer had come meanwhile; what it last heard then is not kept, so rates and forces are those of now
     In unheard = in;
     unheard.sensors.answers = state.before.answers;
-    for (std::int64_t i = 0; i < std::min(left_out, longest_pause); ++i) step(p, dt, unheard, state, out);
+    for (std::int64_t i = 0; i < std::min(left_out, longest_pause); ++i) step(p, dt, unheard, true, state, out);
   }
-  step(p, dt, in, state, out);
+  step(p, dt, in, left_out > 0, state, out);
 }
 
 }  // namespace jarol::tasks

@@ -64,6 +64,16 @@ struct Before {
   }
 };
 
+/// Where nothing was heard for long the altitude begins anew, once two ranges of the sonar agree.
+struct NewAltitude {
+  bool begins = false;
+  double first = 0;
+
+  static constexpr auto fields() {
+    return describe(field<&NewAltitude::begins>(), field<&NewAltitude::first>("m", "of the two"));
+  }
+};
+
 /// How old readings are when they are used. An answer has what the IMU sampled at the answer before, and ranges since:
 /// over a radio that loses or holds up signals the time between them is not known well.
 struct ReadingAge {
@@ -165,7 +175,8 @@ struct JaviatorFilter {
     double roll = 0, pitch = 0, yaw = 0;
     double disagreement = 0, climb_off = 0, climb_was_off = 0, roll_off = 0, pitch_off = 0, unanswered = 0;
     double slant_roll = 0, slant_pitch = 0;
-    bool has_flown = false, begins_anew = false;
+    bool has_flown = false;
+    NewAltitude anew{};
     Before before{};
     static constexpr auto fields() {
       using S = State;
@@ -183,9 +194,7 @@ struct JaviatorFilter {
                       field<&S::roll_off>("rad", "by which it is wrong as places report, averaged"),
                       field<&S::pitch_off>("rad"), field<&S::unanswered>("s", "since the Robostix answered"),
                       field<&S::slant_roll>("rad", "of the weight felt while it stands, less the roll, averaged"),
-                      field<&S::slant_pitch>("rad"), field<&S::has_flown>(),
-                      field<&S::begins_anew>("", "with the altitude of the next range, as nothing was heard for long"),
-                      field<&S::before>());
+                      field<&S::slant_pitch>("rad"), field<&S::has_flown>(), field<&S::anew>(), field<&S::before>());
     }
   };
   struct Out {

@@ -31,7 +31,7 @@ bool lies_over(const FlightLogic::Param& p, const FlightEstimate& e) {
 // Once it descends, only the ground can stop it or take its weight.
 bool has_touched(const FlightLogic::Param& p, const FlightEstimate& e, double thrust) {
   const bool still = e.altitude_known && e.altitude < 0.5 && std::abs(e.climb) < p.still;
-  return still || thrust < p.light;
+  return e.answers_known && (still || thrust < p.light);
 }
 
 // One that leans may stand on one foot, and would fall onto the others with its motors off; one with all of its thrust
@@ -157,7 +157,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   // nobody looked during activations that were left out
   const std::int64_t before = std::exchange(state.before, tick.activation);
   const double passed = before < 0 ? dt : dt * static_cast<double>(tick.activation - before);
-  state.unanswered = e.answers_known && passed < long_silence ? 0 : state.unanswered + passed;
+  state.unanswered = e.answers_known && passed < p.answers_patience ? 0 : state.unanswered + passed;
   if (state.unanswered > long_silence) state.was_silent = true;
   see_wall(e.fix_x, state.walls_x);
   see_wall(e.fix_y, state.walls_y);
@@ -165,7 +165,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
 
   if (command.shut_downs != state.shut_downs) {
     enter(FlightState::halt, Cause::none, state, d);
-  } else if (command.state_switches != state.state_switches) {
+  } else if (command.state_switches != state.state_switches && passed < p.answers_patience) {
     press_switch(e, state, d);
   }
   state.shut_downs = command.shut_downs;
@@ -211,7 +211,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
     else if (state.since > 1 && state.still > p.touch_time)
       enter(FlightState::ground, d.cause, state, d);
   }
-  const bool flies = d.state == FlightState::flying || d.state == FlightState::landing;
+  const bool flies = d.state != FlightState::halt && d.state != FlightState::ground;
   bool has_come_down = state.unanswered > p.answers_patience;  // longer than any landing
   if (state.was_silent && e.answers_known && e.altitude_known) {
     has_come_down = has_come_down || e.altitude < p.tips_below;

@@ -51,15 +51,16 @@ struct FlightLogic {
           field<&P::altitude_limit>("m", "beyond which it lands"),
           field<&P::battery_limit>("V", "below which it lands"),
           field<&P::patience>("s", "without the operator, before it lands"),
-          field<&P::answers_patience>("s",
-                                      "without an answer of the Robostix, before a landing ends with the motors "
-                                      "locked: less than until its `safe`, or they start again with what comes then"),
+          field<&P::answers_patience>(
+              "s",
+              "without an answer of the Robostix, or without being run, after which the motors "
+              "are locked: less than until its `safe`, or they start again with what comes then"),
           field<&P::still>("m/s", "rate of descent below which it may have touched down"),
           field<&P::light>("", "thrust below which the ground must carry"),
           field<&P::carried>("", "thrust above which it may hover where it is still").in(0, 10),
           field<&P::level>("rad", "of lean, beyond which it may stand on one foot").in(0, std::numbers::pi),
-          field<&P::touch_time>("s", "for which it is still or light when it has touched down"),
-          field<&P::doubt_time>("s", "the same, where it may do either").in(0.01, 100),
+          field<&P::touch_time>("s", "for which it is still or light when it has touched down").in(0.001, 100),
+          field<&P::doubt_time>("s", "the same, where it may hover or stand on one foot").in(0.01, 100),
           field<&P::out_of_control>("rad",
                                     "of lean that the IMU shows, beyond which a landing ends with the motors locked")
               .in(0, std::numbers::pi),
@@ -94,17 +95,18 @@ struct FlightLogic {
     TrimKeys trim{};
     static constexpr auto fields() {
       using S = State;
-      return describe(field<&S::since>("s", "the state began"), field<&S::unheard>("s", "the operator was heard"),
-                      field<&S::unanswered>("s", "the Robostix answered in time, and that was looked at"),
-                      field<&S::still>("s", "it has been still or light, a part of that where it may fall"),
-                      field<&S::lies_over>("s", "it has leant like one that has overturned"),
-                      field<&S::without_lift>("s", "it has not risen at full thrust"),
-                      field<&S::settles>("", "where it is, as it is to go to the ground"),
-                      field<&S::was_silent>("", "the Robostix, for so long that it may have come down"),
-                      field<&S::walls_x>("", "of the room, which it keeps away from"), field<&S::walls_y>(),
-                      field<&S::before>("", "activation that ran last"),
-                      field<&S::state_switches>("", "of the operator, up to now"),
-                      field<&S::shut_downs>("", "likewise"), field<&S::trim>("", "likewise"));
+      return describe(
+          field<&S::since>("s", "the state began"), field<&S::unheard>("s", "the operator was heard"),
+          field<&S::unanswered>("s", "the Robostix answered in time, and that was looked at"),
+          field<&S::still>("s", "it has been still or light, counted slower where it may hover or stand on one foot"),
+          field<&S::lies_over>("s", "it has leant like one that has overturned"),
+          field<&S::without_lift>("s", "it has not risen at full thrust"),
+          field<&S::settles>("", "where it is, as it is to go to the ground"),
+          field<&S::was_silent>("", "the Robostix, for so long that it may have come down"),
+          field<&S::walls_x>("", "of the room, which it keeps away from"), field<&S::walls_y>(),
+          field<&S::before>("", "activation that ran last"),
+          field<&S::state_switches>("", "of the operator, up to now"), field<&S::shut_downs>("", "likewise"),
+          field<&S::trim>("", "likewise"));
     }
   };
   struct Out {

@@ -1,8 +1,13 @@
 // `jarol vehicle` over a link: what it writes, and how it announces itself.
 #include <doctest/doctest.h>
+#include <netinet/in.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "distributers/links/address.h"
@@ -46,5 +51,38 @@ TEST_SUITE("tools/vehicle_link") {
     REQUIRE(heard.size() == 1);
     CHECK(heard[0].find("lauv-simulator-1") != std::string::npos);
     CHECK(heard[0].find("imc+udp://127.0.0.1:" + port + "/") != std::string::npos);
+  }
+
+  TEST_CASE("a peer that sends back what it gets is no vehicle: the run says that nothing came, and ends with 3") {
+    std::atomic<bool> ends{false};
+    const int echo = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK, 0);
+    sockaddr_in place{};
+    place.sin_family = AF_INET;
+    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof place;
+    REQUIRE(::bind(echo, reinterpret_cast<sockaddr*>(&place), size) == 0);
+    REQUIRE(::getsockname(echo, reinterpret_cast<sockaddr*>(&place), &size) == 0);
+    std::thread echoing([&] {
+      while (!ends) {
+        char packet[2048];
+        sockaddr_in from{};
+        socklen_t length = sizeof from;
+        const auto bytes = ::recvfrom(echo, packet, sizeof packet, 0, reinterpret_cast<sockaddr*>(&from), &length);
+        if (bytes < 0)
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        else
+          ::sendto(echo, packet, static_cast<std::size_t>(bytes), 0, reinterpret_cast<sockaddr*>(&from), length);
+      }
+    });
+    const auto [exit_code, text] =
+        command::run_jarol("run specs/exolauv_bare.yaml --set 'distributers.dune.link={type: udp, peer: \"127.0.0.1:" +
+                           std::to_string(ntohs(place.sin_port)) + "\"}' --for 500ms --clock real");
+    ends = true;
+    echoing.join();
+    ::close(echo);
+    CHECK(exit_code == 3);
+    CHECK(text.find("error: nothing came from the vehicle of 'dune' in the whole run; is it there?\n") !=
+          std::string::npos);
+    CHECK(text.find("NO PACKET THAT COUNTS HAS COME over udp") != std::string::npos);
   }
 }

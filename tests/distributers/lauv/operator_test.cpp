@@ -84,11 +84,13 @@ TEST_SUITE("distributers/lauv_operator") {
 
   TEST_CASE("a negative depth is the surface, a negative speed none, and the log book says so") {
     Conversation c;
-    c.say(imc::DesiredZ{3, imc::ZUnits::DEPTH});
-    c.say(imc::DesiredZ{-2, imc::ZUnits::DEPTH});
-    c.pass(50ms);
-    CHECK(c.setpoint().depth == 0);
-    CHECK(c.to.last<imc::LogBookEntry>().text == "DesiredZ is -2 m; depths are not negative: it goes to the surface");
+    for (const double before : {0, 3}) {
+      c.say(imc::DesiredZ{static_cast<float>(before), imc::ZUnits::DEPTH});
+      c.say(imc::DesiredZ{-2, imc::ZUnits::DEPTH});
+      c.pass(50ms);
+      CHECK(c.setpoint().depth == 0);
+      CHECK(c.to.last<imc::LogBookEntry>().text == "DesiredZ is -2 m; depths are not negative: it goes to the surface");
+    }
     c.say(imc::DesiredSpeed{-1, imc::SpeedUnits::METERS_PS});
     c.pass(50ms);
     CHECK(c.setpoint().speed == 0);

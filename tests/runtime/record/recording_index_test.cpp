@@ -77,7 +77,7 @@ std::vector<bool> topic_of(const Recording& recording, const std::string& name) 
 }  // namespace
 
 TEST_SUITE("runtime/recording_index") {
-  TEST_CASE("a recording that was removed, moved or replaced while it was written is lost, and that is said") {
+  TEST_CASE("of a recording that was removed, moved or replaced while it was written it is said that it is not there") {
     const IndexedFile file;
     const std::string other = file.path() + ".moved";
     const std::string lost =

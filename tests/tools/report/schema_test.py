@@ -25,7 +25,7 @@ BEYOND_A_SCHEMA = {
         deadline_later_than_let let_longer_than_period
         offset_not_below_period period_missing period_no_part_of_the_graph timeout_shorter_than_period
         duration_beyond_ten_years duration_part_of_a_nanosecond duration_too_large heap_too_large heap_too_small
-        heaps_too_large_together heap_initial_values heap_of_nothing size_part_of_a_byte link_announces_nowhere
+        heaps_too_large_together heap_initial_values heap_of_nothing size_part_of_a_byte link_announces_nowhere link_listens_to_itself
         init_not_finite_in_its_unit""",
     "the language of conditions": """
         at_end_until_comparison at_end_until_metric at_end_until_names at_end_until_once at_end_until_true
