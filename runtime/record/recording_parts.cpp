@@ -170,15 +170,17 @@ void RecordingParts::begin_next() {
     stayed_ = "'" + part_.path + "' went on beyond the size of --record-split: " + why.substr(0, why.find("; "));
     return;
   }
+  std::string mark;
   try {
     finish();
+    mark = mark_of_part("/proc/self/fd/" + std::to_string(::fileno(part_.file)));  // wherever it is by now
     close_part();
   } catch (...) {
     std::fclose(next.file);
     throw;
   }
   ++header_.part;
-  header_.follows = mark_of_part(part_.path);
+  header_.follows = std::move(mark);
   begin_part(std::move(next));
   try {
     writer_->write(schemas_, channels_);

@@ -36,20 +36,21 @@ class IndexedFile {
 
 void record(
     const std::string& path, mcap::Compression compression = mcap::Compression::lz4,
-    const std::function<void()>& meanwhile = [] {}) {
+    const std::function<void()>& meanwhile = [] {}, std::uint64_t split = 0) {
   const Graph graph = tests::graph_of(R"(graph: t
 tasks:
   a: {type: Counter, period: 1ms}
   b: {type: Relay, period: 2ms, let: 1ms}
 connections: [a.out -> b.in]
 )");
-  RecordingWriter writer(path, {.graph = "t", .file = "", .overrides = {}, .clock = "virtual", .what = "all"},
-                         {{"/t.yaml", "a text"}}, graph, compression);
+  RecordingHeader header{.graph = "t", .file = "", .overrides = {}, .clock = "virtual", .what = "all"};
+  header.split = split;
+  RecordingWriter writer(path, header, {{"/t.yaml", "a text"}}, graph, compression);
   writer.open();
+  meanwhile();
   Recorder recorder({writer.publications()});
   Executor executor(graph, {}, {.recorder = &recorder, .log = writer.recorder()});
   executor.run_until(60s);
-  meanwhile();
   recorder.close();
   writer.close(log_end_of(executor.report()));
 }
@@ -81,7 +82,7 @@ TEST_SUITE("runtime/recording_index") {
     const IndexedFile file;
     const std::string other = file.path() + ".moved";
     const std::string lost =
-        "'" + file.path() + "' was removed or replaced while it was written; the recording is lost";
+        "'" + file.path() + "' is not there any more: it was moved, removed or replaced while it was written";
     CHECK_THROWS_WITH_AS(record(file.path(), mcap::Compression::lz4, [&] { fs::remove(file.path()); }), lost.c_str(),
                          std::runtime_error);
     CHECK_THROWS_WITH_AS(record(file.path(), mcap::Compression::lz4, [&] { fs::rename(file.path(), other); }),
@@ -95,6 +96,21 @@ TEST_SUITE("runtime/recording_index") {
     fs::remove(file.path());
     fs::remove(other);
     CHECK_NOTHROW(record(file.path()));
+  }
+
+  TEST_CASE("a part of a recording that was moved does not cost the next ones") {
+    const IndexedFile file;
+    const std::string other = file.path() + ".moved", second = file.path() + ".2";
+    const std::string moved =
+        "'" + file.path() + "' is not there any more: it was moved, removed or replaced while it was written";
+    CHECK_THROWS_WITH_AS(record(
+                             file.path(), mcap::Compression::none, [&] { fs::rename(file.path(), other); }, 1'000'000),
+                         moved.c_str(), std::runtime_error);
+    fs::rename(other, file.path());
+    const Recording whole(file.path());
+    CHECK(whole.is_whole());
+    CHECK(whole.parts().size() > 2);
+    for (const auto& part : whole.parts()) fs::remove(part);
   }
 
   TEST_CASE("what the index says is what the whole file says") {
