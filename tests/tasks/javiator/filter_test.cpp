@@ -224,7 +224,7 @@ TEST_SUITE("tasks/javiator_filter") {
 
   TEST_CASE(
       "heard again after more than 0.3 s its altitude is known as soon as two ranges agree, which begin it anew") {
-    HeardHelicopter heard = tests::hovering();
+    tests::HeardHelicopter heard = tests::hovering();
     heard.state.z.speed = 1;  // it rises as nothing more is heard
     const double before = heard.out.estimate.altitude;
     const auto be_silent = [&](int periods) {
