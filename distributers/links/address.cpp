@@ -16,6 +16,14 @@ bool is_port(const std::string& text) {
          std::stoi(text) <= 65535;
 }
 
+// Where a socket is bound; none: it is not.
+Address own_address_of(const Descriptor& socket) {
+  sockaddr_storage storage{};
+  socklen_t size = sizeof storage;
+  if (getsockname(socket.get(), reinterpret_cast<sockaddr*>(&storage), &size) != 0) return {};
+  return Address::of(storage, size);
+}
+
 }  // namespace
 
 Address Address::parse(const std::string& text) {
@@ -106,10 +114,8 @@ Address local_towards(const Address& peer) {
 }
 
 int port_of(const Descriptor& socket) {
-  sockaddr_storage storage{};
-  socklen_t size = sizeof storage;
-  if (getsockname(socket.get(), reinterpret_cast<sockaddr*>(&storage), &size) != 0) return 0;
-  return Address::of(storage, size).port();
+  const Address own = own_address_of(socket);
+  return own ? own.port() : 0;
 }
 
 Address peer_of(const Descriptor& socket) {
@@ -120,11 +126,8 @@ Address peer_of(const Descriptor& socket) {
 }
 
 bool is_connected_to_itself(const Descriptor& socket) {
-  sockaddr_storage storage{};
-  socklen_t size = sizeof storage;
-  if (getsockname(socket.get(), reinterpret_cast<sockaddr*>(&storage), &size) != 0) return false;
   const Address peer = peer_of(socket);
-  return peer && peer == Address::of(storage, size);
+  return peer && peer == own_address_of(socket);
 }
 
 void break_off(Descriptor socket) {

@@ -157,8 +157,8 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   // nobody looked during activations that were left out
   const std::int64_t before = std::exchange(state.before, tick.activation);
   const double passed = before < 0 ? dt : dt * static_cast<double>(tick.activation - before);
+  const bool is_heard_again = e.answers_known && state.unanswered > long_silence;
   state.unanswered = e.answers_known && passed < p.answers_patience ? 0 : state.unanswered + passed;
-  if (state.unanswered > long_silence) state.was_silent = true;
   see_wall(e.fix_x, state.walls_x);
   see_wall(e.fix_y, state.walls_y);
   const bool wants_position = command.mode_switches % 2 == 1;
@@ -212,11 +212,8 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
       enter(FlightState::ground, d.cause, state, d);
   }
   const bool flies = d.state != FlightState::halt && d.state != FlightState::ground;
-  bool has_come_down = state.unanswered > p.answers_patience;  // longer than any landing
-  if (state.was_silent && e.answers_known && e.altitude_known) {
-    has_come_down = has_come_down || e.altitude < p.tips_below;
-    state.was_silent = false;
-  }
+  const bool is_low = e.altitude_known && e.altitude < p.tips_below;
+  const bool has_come_down = state.unanswered > p.answers_patience || (is_heard_again && is_low);
   // on its feet or not: nobody but the operator may start its motors again
   if (flies && has_come_down)
     enter(FlightState::halt, d.cause == Cause::none ? Cause::answers_late : d.cause, state, d);

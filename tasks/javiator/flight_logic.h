@@ -88,7 +88,7 @@ struct FlightLogic {
   };
   struct State {
     double since = 0, unheard = 0, unanswered = 0, still = 0, lies_over = 0, without_lift = 0;
-    bool settles = false, was_silent = false;
+    bool settles = false;
     Walls walls_x{}, walls_y{};
     std::int64_t before = -1;
     std::uint32_t state_switches = 0, shut_downs = 0;
@@ -102,7 +102,6 @@ struct FlightLogic {
           field<&S::lies_over>("s", "it has leant like one that has overturned"),
           field<&S::without_lift>("s", "it has not risen at full thrust"),
           field<&S::settles>("", "where it is, as it is to go to the ground"),
-          field<&S::was_silent>("", "the Robostix, for so long that it may have come down"),
           field<&S::walls_x>("", "of the room, which it keeps away from"), field<&S::walls_y>(),
           field<&S::before>("", "activation that ran last"),
           field<&S::state_switches>("", "of the operator, up to now"), field<&S::shut_downs>("", "likewise"),

@@ -84,6 +84,13 @@ class Ear {
   In in;
 };
 
+// That of no vehicle.
+class Operator : public Ear {
+ public:
+  [[maybe_unused]] static constexpr bool is_vehicle = false;
+  static constexpr auto handlers() { return handle(on<javiator::MotorSignals>(&Operator::motors)); }
+};
+
 // And with more, which it says.
 class Counting : public Ear {
  public:
@@ -177,6 +184,18 @@ TEST_SUITE("distributers/interfaces/typed") {
     CHECK(sonde->answers == 0);
     sonde.receive(javiator::JaviatorData{});
     CHECK(sonde->answers == 1);
+  }
+
+  TEST_CASE("a vehicle is heard by messages that its distributer handles, any other system by whatever it sends") {
+    Typed<Ear> vehicle;
+    vehicle.receive(javiator::SwitchState{});
+    CHECK(vehicle.used() == 0);
+    vehicle.receive(javiator::MotorSignals{});
+    CHECK(vehicle.used() == 1);
+    Typed<Operator> hand;
+    hand.receive(javiator::SwitchState{});
+    hand.receive(javiator::MotorSignals{});
+    CHECK(hand.used() == 2);
   }
 
   TEST_CASE("a channel's number is its place in the description, and values go to its handler") {
