@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tasks/add_task.h"
+
 namespace jarol::tasks {
 
 void Counter::run(const Tick& tick, Out& out) { out.out = static_cast<double>(tick.activation); }
@@ -36,5 +38,13 @@ void Work::run(const Param& p, const Tick&, State& state) {
   for (std::uint32_t i = 0; i < p.rounds; ++i)
     state.number = state.number * 6364136223846793005ULL + 1442695040888963407ULL;
 }
+
+template void add_task<Accumulate>(Registry&);
+template void add_task<Counter>(Registry&);
+template void add_task<Mean>(Registry&);
+template void add_task<Relay>(Registry&);
+template void add_task<Sum>(Registry&);
+template void add_task<Window>(Registry&);
+template void add_task<Work>(Registry&);
 
 }  // namespace jarol::tasks

@@ -1,9 +1,20 @@
 #include "tasks/tasks.h"
 
+#include <utility>
+
 #include "tasks/add_tasks.h"
-#include "tasks/generic.h"
 
 namespace jarol::tasks {
+
+struct Accumulate;
+struct Counter;
+struct Mean;
+struct Relay;
+struct Sum;
+struct Window;
+struct Work;
+
+void add_class(Registry& registry, TaskClass task) { registry.add(std::move(task)); }
 
 void add_tasks(Registry& registry) {
   add<Accumulate, Counter, Mean, Relay, Sum, Window, Work>(registry);

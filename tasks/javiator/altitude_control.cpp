@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "graph/math/geometry.h"
+#include "tasks/add_task.h"
 
 namespace jarol::tasks {
 namespace {
@@ -131,5 +132,7 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     state.trim = std::max(std::min(thrust, state.trim), p.idle);
   }
 }
+
+template void add_task<AltitudeControl>(Registry&);
 
 }  // namespace jarol::tasks

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "graph/math/geometry.h"
+#include "tasks/add_task.h"
 
 namespace jarol::tasks {
 namespace {
@@ -228,5 +229,7 @@ void BlindObserver::run(const Param& p, const Tick& tick, const In& in, State& s
                 .lift = lift,
                 .known = !state.turns && state.x.since < p.patience && state.y.since < p.patience};
 }
+
+template void add_task<BlindObserver>(Registry&);
 
 }  // namespace jarol::tasks

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "graph/math/geometry.h"
+#include "tasks/add_task.h"
 #include "tasks/javiator/rotor_law.h"
 
 namespace jarol::tasks {
@@ -175,5 +176,10 @@ void HelicopterReporter::run(const Tick&, const In& in, Out& out) {
                 .trim_roll = in.directive.trim_roll,
                 .trim_pitch = in.directive.trim_pitch};
 }
+
+template void add_task<AttitudeControl>(Registry&);
+template void add_task<HelicopterReporter>(Registry&);
+template void add_task<MotorMixer>(Registry&);
+template void add_task<PositionControl>(Registry&);
 
 }  // namespace jarol::tasks

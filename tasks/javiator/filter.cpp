@@ -6,6 +6,7 @@
 
 #include "graph/math/geometry.h"
 #include "graph/math/rotations.h"
+#include "tasks/add_task.h"
 #include "tasks/javiator/filter_checks.h"
 
 namespace jarol::tasks {
@@ -268,5 +269,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   }
   step(p, dt, in, left_out > 0, state, out);
 }
+
+template void add_task<JaviatorFilter>(Registry&);
 
 }  // namespace jarol::tasks

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "graph/math/geometry.h"
+#include "tasks/add_task.h"
 
 namespace jarol::tasks {
 namespace {
@@ -221,5 +222,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   // one that lies on its side does not stand there well, however it came to that
   if (d.state == FlightState::ground && d.cause == Cause::none && e.attitude_known) d.cause = find_lean(p, e);
 }
+
+template void add_task<FlightLogic>(Registry&);
 
 }  // namespace jarol::tasks

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "graph/math/geometry.h"
+#include "tasks/add_task.h"
 #include "tasks/javiator/rotor_law.h"
 
 namespace jarol::tasks {
@@ -208,5 +209,7 @@ void MotorWatch::run(const Param& p, const Tick& tick, const In& in, State& stat
   }
   out.motors = state.motors;
 }
+
+template void add_task<MotorWatch>(Registry&);
 
 }  // namespace jarol::tasks

@@ -5,6 +5,7 @@
 
 #include "graph/math/geometry.h"
 #include "graph/math/rotations.h"
+#include "tasks/add_task.h"
 
 namespace jarol::tasks {
 namespace {
@@ -154,5 +155,11 @@ void OriginalMixer::run(const Param& p, const Tick& tick, const In& in, Out& out
     for (double& signal : signals) signal = std::clamp(signal + step, 0.0, 16000.0);
   }
 }
+
+template void add_task<OriginalAltitude>(Registry&);
+template void add_task<OriginalAttitude>(Registry&);
+template void add_task<OriginalLogic>(Registry&);
+template void add_task<OriginalMixer>(Registry&);
+template void add_task<OriginalPosition>(Registry&);
 
 }  // namespace jarol::tasks

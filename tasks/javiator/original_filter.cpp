@@ -6,6 +6,7 @@
 
 #include "graph/math/geometry.h"
 #include "graph/math/rotations.h"
+#include "tasks/add_task.h"
 
 namespace jarol::tasks {
 namespace {
@@ -131,5 +132,7 @@ void OriginalFilter::run(const Param& p, const Tick& tick, const In& in, State& 
        .pressure_known = true,
        .answers_known = true};
 }
+
+template void add_task<OriginalFilter>(Registry&);
 
 }  // namespace jarol::tasks

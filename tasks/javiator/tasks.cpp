@@ -1,12 +1,16 @@
 #include "tasks/add_tasks.h"
-#include "tasks/javiator/altitude_control.h"
-#include "tasks/javiator/blind_observer.h"
-#include "tasks/javiator/control.h"
-#include "tasks/javiator/filter.h"
-#include "tasks/javiator/flight_logic.h"
-#include "tasks/javiator/motor_watch.h"
 
 namespace jarol::tasks {
+
+struct AltitudeControl;
+struct AttitudeControl;
+struct BlindObserver;
+struct FlightLogic;
+struct HelicopterReporter;
+struct JaviatorFilter;
+struct MotorMixer;
+struct MotorWatch;
+struct PositionControl;
 
 void add_javiator_tasks(Registry& registry) {
   add<AltitudeControl, AttitudeControl, BlindObserver, FlightLogic, HelicopterReporter, JaviatorFilter, MotorMixer,

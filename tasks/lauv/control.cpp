@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "graph/math/geometry.h"
+#include "tasks/add_task.h"
 
 namespace jarol::tasks {
 namespace {}  // namespace
@@ -62,5 +63,12 @@ void LauvReport::run(const Tick&, const In& in, Out& out) {
 }
 
 void LauvForward::run(const Tick&, const In& in, Out& out) { out = {in.motion, in.actuation}; }
+
+template void add_task<DepthControl>(Registry&);
+template void add_task<FinAllocator>(Registry&);
+template void add_task<HeadingControl>(Registry&);
+template void add_task<LauvForward>(Registry&);
+template void add_task<LauvReport>(Registry&);
+template void add_task<SpeedControl>(Registry&);
 
 }  // namespace jarol::tasks

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tasks/add_task.h"
 #include "tasks/lauv/control.h"
 
 namespace jarol::tasks {
@@ -94,5 +95,8 @@ void FaultTolerantAllocator::run(const Param& p, const Tick& tick, const In& in,
     fins[pair.second] -= roll_sides[pair.second] * apart;
   }
 }
+
+template void add_task<FaultTolerantAllocator>(Registry&);
+template void add_task<FinWatch>(Registry&);
 
 }  // namespace jarol::tasks

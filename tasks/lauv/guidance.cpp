@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tasks/add_task.h"
+
 namespace jarol::tasks {
 namespace {
 
@@ -179,5 +181,7 @@ void LauvGuidance::run(const Param& p, const Tick& tick, const In& in, State& st
   state.done |= leg.until_level ? progress.levelled : over;
   progress.done = state.done;
 }
+
+template void add_task<LauvGuidance>(Registry&);
 
 }  // namespace jarol::tasks

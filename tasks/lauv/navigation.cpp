@@ -6,6 +6,7 @@
 
 #include "graph/math/geometry.h"
 #include "graph/math/rotations.h"
+#include "tasks/add_task.h"
 
 namespace jarol::tasks {
 namespace {
@@ -90,5 +91,7 @@ void LauvNavigation::run(const Param& p, const Tick& tick, const In& in, State& 
   out.stream = {state.place.s[2], state.place.s[3]};
   out.accuracy = {state.fixes > 0, std::sqrt(state.place.P[0] + state.place.P[5]), state.left_out};
 }
+
+template void add_task<LauvNavigation>(Registry&);
 
 }  // namespace jarol::tasks

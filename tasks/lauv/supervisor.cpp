@@ -7,6 +7,7 @@
 
 #include "graph/math/geometry.h"
 #include "graph/math/rotations.h"
+#include "tasks/add_task.h"
 #include "tasks/lauv/depth_source.h"
 
 namespace jarol::tasks {
@@ -269,5 +270,7 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
   out.setpoint = {climbs ? -1000.0 : 0.0, in.setpoint.heading, climbs ? p.climb_speed : 0.0};
   out.condition.alarm = state.alarm;
 }
+
+template void add_task<LauvSupervisor>(Registry&);
 
 }  // namespace jarol::tasks

@@ -1,11 +1,18 @@
 #include "tasks/add_tasks.h"
-#include "tasks/lauv/control.h"
-#include "tasks/lauv/fins.h"
-#include "tasks/lauv/guidance.h"
-#include "tasks/lauv/navigation.h"
-#include "tasks/lauv/supervisor.h"
 
 namespace jarol::tasks {
+
+struct DepthControl;
+struct FaultTolerantAllocator;
+struct FinAllocator;
+struct FinWatch;
+struct HeadingControl;
+struct LauvForward;
+struct LauvGuidance;
+struct LauvNavigation;
+struct LauvReport;
+struct LauvSupervisor;
+struct SpeedControl;
 
 void add_lauv_tasks(Registry& registry) {
   add<DepthControl, FaultTolerantAllocator, FinAllocator, FinWatch, HeadingControl, LauvForward, LauvGuidance,
