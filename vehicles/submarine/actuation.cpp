@@ -15,7 +15,7 @@ constexpr double step_seconds = SubmarineMotion::step_seconds;
 SubmarineActuation::SubmarineActuation(const SubmarineParameters& parameters, std::uint64_t seed)
     : servo_parameters_(parameters.servos),
       thruster_(parameters.thruster),
-      at_end_of_step_(parameters.vsim_compatible),
+      at_start_of_step_(parameters.vsim_compatible),
       timeout_(parameters.command_timeout / std::chrono::milliseconds(10)),
       failing_fins_{FailingActuator(parameters.failures.fin0, spread_seed(seed, "fin0.failure")),
                     FailingActuator(parameters.failures.fin1, spread_seed(seed, "fin1.failure")),
@@ -50,7 +50,8 @@ SubmarineInput SubmarineActuation::step(bool powered) {
 
   const double now = static_cast<double>(steps_++) * step_seconds;
 
-  // the plant sees what the actuators are on average over the step, or what they come to
+  // the plant sees where the actuators are on average over the step; VSIM's fins are a task of their own, which it
+  // hears of one step later
   SubmarineInput input;
   const double reach = powered ? servo_parameters_.slew * step_seconds : 0.0;
   for (std::size_t i = 0; i < servos_.size(); ++i) {
@@ -58,7 +59,7 @@ SubmarineInput SubmarineActuation::step(bool powered) {
     const double command = failing_fins_[i].command(now, servo_commands_[i], servo_parameters_.limit);
     if (!failing_fins_[i].is_stuck(now)) servos_[i] += std::clamp(command - before, -reach, reach);
     const double part = failing_fins_[i].part(now);  // lift grows with the angle
-    input.fins[i] = part * (at_end_of_step_ ? servos_[i] : 0.5 * (before + servos_[i]));
+    input.fins[i] = part * (at_start_of_step_ ? before : 0.5 * (before + servos_[i]));
   }
 
   // first-order lag, solved exactly; thrust grows with the square of the speed

@@ -33,7 +33,7 @@ class SubmarineActuation {
  private:
   ServoParameters servo_parameters_;
   ThrusterParameters thruster_;
-  bool at_end_of_step_ = false;
+  bool at_start_of_step_ = false;
   std::int64_t timeout_ = 0;  // steps, 0 for none
   double thruster_command_ = 0.0;
   std::array<double, 4> servo_commands_{};

@@ -28,11 +28,13 @@ TEST_SUITE("vehicles/submarine_actuation") {
     CHECK(seen.fins[1] == doctest::Approx((13 * 3.333 + 45) / 2 * degree));
   }
 
-  TEST_CASE("DUNE's simulator sees fins and propeller where they come to at the end of a step") {
+  TEST_CASE("DUNE's simulator sees fins where they were at the start of a step") {
     SubmarineParameters parameters;
     parameters.vsim_compatible = true;
     SubmarineActuation actuation(parameters);
     actuation.command_servo(3, -2);
+    CHECK(actuation.step().fins[3] == 0);
+    CHECK(actuation.servos()[3] == doctest::Approx(-3.333 * degree));
     CHECK(actuation.step().fins[3] == doctest::Approx(-3.333 * degree));
   }
 
