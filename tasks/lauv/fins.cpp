@@ -74,10 +74,10 @@ void FaultTolerantAllocator::run(const Param& p, const Tick& tick, const In& in,
   const auto all_sound = [&](const Pair& pair) { return !stuck(pair.first) && !stuck(pair.second); };
   if (all_sound(rudders) && all_sound(elevators)) return;
 
-  // the mean of a pair is to be what was demanded of each
+  // the mean of a pair is to be what was demanded of each; where nothing can take over, both are sent what was demanded
   const auto replace = [&](std::size_t i, std::size_t other) {
-    if (!stuck(i)) return;
-    if (!stuck(other)) fins[other] = limited(2 * fins[other] - limited(in.fins.angles[i], p.limit), p.limit);
+    if (!stuck(i) || stuck(other)) return;
+    fins[other] = limited(2 * fins[other] - limited(in.fins.angles[i], p.limit), p.limit);
     fins[i] = in.fins.angles[i];
   };
   for (const Pair& pair : {rudders, elevators}) {
@@ -86,7 +86,8 @@ void FaultTolerantAllocator::run(const Param& p, const Tick& tick, const In& in,
   }
   // two that part leave the pair's mean as it is, and roll
   double roll = 0;
-  for (std::size_t i = 0; i < fins.size(); ++i) roll += roll_sides[i] * limited(fins[i], p.limit);
+  for (std::size_t i = 0; i < fins.size(); ++i)
+    roll += roll_sides[i] * limited(stuck(i) ? in.fins.angles[i] : fins[i], p.limit);
   for (const Pair& pair : {rudders, elevators}) {
     if (!all_sound(pair)) continue;
     const double room = std::max(p.limit - std::abs(fins[pair.first]), 0.0);

@@ -76,7 +76,8 @@ struct FinWatch {
 
 /// As FinAllocator while no fin is stuck. The other fin of a stuck one's pair takes over its part of the demand, and
 /// undoes what it does where it stands; the other pair takes out the roll that this makes, as far as its own demand
-/// leaves room. A stuck fin is sent to where it is: one whose servo only measures wrong then stays there, too.
+/// leaves room. A stuck fin is sent to where it is: one whose servo only measures wrong then stays there, too. Where
+/// both of a pair are stuck, both are sent their demand, which steers if only what servos report is wrong.
 struct FaultTolerantAllocator {
   static constexpr std::string_view summary = "as FinAllocator, and without a fin that is stuck";
   struct Param {

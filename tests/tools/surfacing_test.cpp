@@ -188,6 +188,16 @@ TEST_SUITE("tools/surfacing") {
     CHECK(done.samples.back().motion.z == doctest::Approx(3).scale(0).epsilon(0.02));
   }
 
+  TEST_CASE("servos that all report as much too much end the dive, and it goes no deeper") {
+    for (const double by : {0.2, 0.4}) {
+      const Dive done = dive_with(failing("servos", "biased", 20, by));
+      check_surfaces(done, Alarm::bottom_fin, 21);
+      double deepest = 0;
+      for (const auto& sample : done.samples) deepest = std::max(deepest, sample.motion.z);
+      CHECK(deepest < 3.1);
+    }
+  }
+
   TEST_CASE("an operator who is lost ends the dive") {
     check_surfaces(dive("specs/exolauv.yaml", {"distributers.neptus.link.file=missions/lost_operator.csv"}, 0, 100s),
                    Alarm::operator_lost, 41.2);

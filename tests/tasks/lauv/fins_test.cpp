@@ -223,15 +223,23 @@ TEST_SUITE("tasks/lauv_fins") {
     }
   }
 
-  TEST_CASE("two stuck fins are both sent to where they are, and each that is left does for its own pair") {
+  TEST_CASE(
+      "where both of a pair are stuck they are sent what is demanded, and each that is left does for its own pair") {
     FinCondition one_pair = stuck_at(0, 0.1);
     one_pair.states[3] = FinState::stuck;
     one_pair.angles[3] = -0.05;
     const Fins fins = allocated(0.1, 0.2, one_pair);
-    CHECK(fins[0] == 0.1);
-    CHECK(fins[3] == -0.05);
-    CHECK(moment_of(fins).x() == doctest::Approx(0));
-    CHECK(moment_of(fins).y() == doctest::Approx(moment_of(sound(0.1, 0)).y()));
+    CHECK(fins[0] == sound(0.1, 0.2)[0]);
+    CHECK(fins[3] == sound(0.1, 0.2)[3]);
+    // what turns it where they stand as they report
+    const Fins standing{0.1, fins[1], fins[2], -0.05};
+    CHECK(moment_of(standing).x() == doctest::Approx(0));
+    CHECK(moment_of(standing).y() == doctest::Approx(moment_of(sound(0.1, 0)).y()));
+
+    FinCondition all_off = stuck_at(0, 0.2);
+    all_off.states.fill(FinState::stuck);
+    all_off.angles.fill(0.2);
+    CHECK(allocated(0.1, 0.2, all_off) == sound(0.1, 0.2));
 
     FinCondition one_of_each = stuck_at(3, 0.1);
     one_of_each.states[1] = FinState::stuck;
