@@ -67,8 +67,9 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     const double excess = -p.blind_speed - e.climb;  // of its descent
     state.blind_trim =
         measured ? limited(state.blind_trim + p.blind_ki * excess * dt, 0.2) : std::min(state.blind_trim, 0.0);
-    // near the ground it would stay light; where nobody measures it comes down in the end
-    const double cut = !measured ? 0.005 : e.altitude < ground ? 2.0 : 0.0;  // per s
+    // near the ground it would stay light; where nobody measures it has come down after ten seconds, and may lie there
+    const double blindly = state.blind_cut < 0.05 ? 0.005 : 0.1;               // per s
+    const double cut = !measured ? blindly : e.altitude < ground ? 2.0 : 0.0;  // per s
     state.blind_cut = std::min(state.blind_cut + cut * dt, 2.0);
     const double correction = std::clamp(p.blind_gain * excess, measured ? -0.2 : -0.06, 0.06);
     thrust = std::max(state.mean_trim - 0.03 + state.blind_trim - state.blind_cut + correction, 0.0);

@@ -41,6 +41,13 @@ bool may_fall(const FlightLogic::Param& p, const FlightEstimate& e, double thrus
   return e.rates_known && (std::hypot(e.roll, e.pitch) > p.level || thrust > p.carried);
 }
 
+// For how long that has to last. A motor that gives more than it is told carries it aloft with little thrust demanded.
+double touch_time(const FlightLogic::Param& p, const FlightEstimate& e, double thrust) {
+  constexpr double high = 0.5;  // m
+  if (e.altitude_known && e.altitude >= high) return p.high_time;
+  return may_fall(p, e, thrust) ? p.doubt_time : p.touch_time;
+}
+
 // Its rotors give what they can, and it does not rise.
 bool lacks_lift(const FlightLogic::Param& p, const FlightLogic::In& in, const FlightDirective& d) {
   constexpr double below = 0.1, slow = 0.05;  // m, m/s
@@ -203,7 +210,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
         d.cause = cause;
         if (cause == Cause::position_lost) d.yaw = find_yaw(cause, e, wants_position);
       }
-    const double counted = may_fall(p, e, in.lift.thrust) ? dt * p.touch_time / p.doubt_time : dt;
+    const double counted = dt * p.touch_time / touch_time(p, e, in.lift.thrust);
     state.still = has_touched(p, e, in.lift.thrust) ? state.still + counted : 0;
     state.lies_over = lies_over(p, e) ? state.lies_over + dt : 0;
     // out of control it is better on the ground here than somewhere else; a lean that lasers show may be another

@@ -35,6 +35,7 @@ struct FlightLogic {
     double level = 0.07;
     double touch_time = 0.3;
     double doubt_time = 1.5;
+    double high_time = 5;
     double out_of_control = 0.8;
     double out_of_control_time = 0.1;
     double overturned = 1;
@@ -61,6 +62,7 @@ struct FlightLogic {
           field<&P::level>("rad", "of lean, beyond which it may stand on one foot").in(0, std::numbers::pi),
           field<&P::touch_time>("s", "for which it is still or light when it has touched down").in(0.001, 100),
           field<&P::doubt_time>("s", "the same, where it may hover or stand on one foot").in(0.01, 100),
+          field<&P::high_time>("s", "the same, where it measures that it is above half a metre").in(0.01, 100),
           field<&P::out_of_control>("rad",
                                     "of lean that the IMU shows, beyond which a landing ends with the motors locked")
               .in(0, std::numbers::pi),
@@ -98,7 +100,8 @@ struct FlightLogic {
       return describe(
           field<&S::since>("s", "the state began"), field<&S::unheard>("s", "the operator was heard"),
           field<&S::unanswered>("s", "the Robostix answered in time, and that was looked at"),
-          field<&S::still>("s", "it has been still or light, counted slower where it may hover or stand on one foot"),
+          field<&S::still>("s",
+                           "it has been still or light, counted slower where it may hover, stand on one foot or fly"),
           field<&S::lies_over>("s", "it has leant like one that has overturned"),
           field<&S::without_lift>("s", "it has not risen at full thrust"),
           field<&S::settles>("", "where it is, as it is to go to the ground"),
