@@ -33,7 +33,7 @@ enum class FrameKind : std::uint8_t {
   message,      // either way: a packet
   step,         // runner to vehicle: one grid step
   sense,        // runner to vehicle: what do the sensors tell?
-  sensed,       // vehicle to runner: that was all; and what has become of it that no mission wants: instant, a text
+  sensed,       // vehicle to runner: that was all, after so many steps; what has become of it: instant, a text, or none
   no_state,     // vehicle to runner: it can't be stepped any more; a text
   busy,         // vehicle to runner: it has another; a text
 };

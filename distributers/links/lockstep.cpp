@@ -22,7 +22,10 @@ class RemoteVehicle : public vehicles::SteppedVehicle {
 
   std::chrono::nanoseconds grid() const override { return grid_; }
   void accept(messages::MessageRef command) override { putter_.receive(command); }
-  void step() override { stream_.put(FrameKind::step); }
+  void step() override {
+    stream_.put(FrameKind::step);
+    ++steps_;
+  }
   void flush() { stream_.flush(); }
 
   void sense(messages::Receiver& receiver) const override {
@@ -30,7 +33,7 @@ class RemoteVehicle : public vehicles::SteppedVehicle {
     stream_.flush();
     for (const auto deadline = stream_.begin_wait();;) {
       const FrameStream::Frame frame = stream_.read(deadline);
-      if (frame.kind == FrameKind::sensed) return hear_of_mishap(frame);
+      if (frame.kind == FrameKind::sensed) return end_of_answer(frame);
       if (frame.kind == FrameKind::busy) throw_busy(stream_, frame);
       if (frame.kind == FrameKind::no_state) throw vehicles::NoState(text_after(frame, 0));
       if (frame.kind != FrameKind::message) throw_unfit(stream_);
@@ -41,14 +44,20 @@ class RemoteVehicle : public vehicles::SteppedVehicle {
   std::optional<vehicles::Mishap> mishap() const override { return mishap_; }
 
  private:
-  // The newest counts: one that has not taken off yet may do so later.
-  void hear_of_mishap(const FrameStream::Frame& frame) const {
+  // An answer that came twice, or late, has the sensors of another step. The newest mishap counts: a vehicle that has
+  // not taken off yet may do so later.
+  void end_of_answer(const FrameStream::Frame& frame) const {
+    const std::uint64_t steps = number(frame, 0);
+    if (steps != steps_)
+      throw FrameError(stream_.who() + " is out of step: got what it senses after step " + std::to_string(steps) +
+                       ", expected that after step " + std::to_string(steps_));
     mishap_.reset();
-    if (frame.bytes.empty()) return;
-    const auto instant = static_cast<std::int64_t>(number(frame, 0));
-    mishap_ = {std::chrono::nanoseconds(instant), text_after(frame, 1).substr(0, longest_mishap)};
+    if (frame.bytes.size() == 8) return;
+    const auto instant = static_cast<std::int64_t>(number(frame, 1));
+    mishap_ = {std::chrono::nanoseconds(instant), text_after(frame, 2).substr(0, longest_mishap)};
   }
 
+  std::uint64_t steps_ = 0;  // granted
   mutable std::optional<vehicles::Mishap> mishap_;
   mutable FrameStream stream_;
   Duration grid_;

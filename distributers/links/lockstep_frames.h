@@ -11,7 +11,7 @@
 
 namespace jarol::distributers {
 
-inline constexpr std::uint64_t lockstep_version = 1;
+inline constexpr std::uint64_t lockstep_version = 2;
 
 // Both ends are this program, which runs on little-endian machines only.
 std::vector<std::byte> numbers(std::initializer_list<std::uint64_t> all, const std::string& text = "");

@@ -16,9 +16,9 @@ constexpr int max_frames = 65536;
 // with one who has begun to say who it is
 constexpr std::chrono::milliseconds first_patience{1000};
 
-std::vector<std::byte> bytes_of(const std::optional<vehicles::Mishap>& mishap) {
-  if (!mishap) return {};
-  return numbers({static_cast<std::uint64_t>(mishap->instant.count())}, mishap->text);
+std::vector<std::byte> end_of_answer(std::uint64_t steps, const std::optional<vehicles::Mishap>& mishap) {
+  if (!mishap) return numbers({steps});
+  return numbers({steps, static_cast<std::uint64_t>(mishap->instant.count())}, mishap->text);
 }
 
 void welcome(FrameStream& stream, const LockstepService& service) {
@@ -156,6 +156,7 @@ class Served {
 
  private:
   void step() {
+    ++steps_;
     try {
       if (!no_state_) vehicle_->step();
     } catch (const vehicles::NoState& error) { no_state_ = error.what(); }
@@ -167,7 +168,7 @@ class Served {
       stream_.put(FrameKind::no_state, std::as_bytes(std::span(*no_state_)));
     } else {
       vehicle_->sense(putter_);
-      stream_.put(FrameKind::sensed, bytes_of(vehicle_->mishap()));
+      stream_.put(FrameKind::sensed, end_of_answer(steps_, vehicle_->mishap()));
     }
     stream_.flush();
   }
@@ -178,6 +179,7 @@ class Served {
   Taker taker_;
   std::unique_ptr<vehicles::Vehicle> vehicle_;
   std::optional<std::string> no_state_;
+  std::uint64_t steps_ = 0;  // since the start
   int frames_ = 0;  // since the last look at the sensors
 };
 

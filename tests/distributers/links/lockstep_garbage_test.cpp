@@ -123,11 +123,11 @@ Bytes runner_session(const std::vector<Bytes>& packets, std::size_t session) {
 
 Bytes vehicle_session(const std::vector<Bytes>& packets, std::size_t session) {
   Random random(session);
-  Bytes welcome = numbers({1, 5'000'000}), bytes;
+  Bytes welcome = numbers({2, 5'000'000}), bytes;
   for (const char c : std::string("javiator")) welcome.push_back(static_cast<std::byte>(c));
   put(bytes, FrameKind::welcome, welcome);
   put_garbage(bytes, packets, random);
-  put(bytes, FrameKind::sensed);
+  put(bytes, FrameKind::sensed, numbers({0}));
   return bytes;
 }
 

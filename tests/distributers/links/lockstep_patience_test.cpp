@@ -40,7 +40,7 @@ Bytes frame(FrameKind kind, const Bytes& content = {}) {
 
 Bytes welcome() {
   Bytes content(16);
-  const std::uint64_t version = 1, grid = 5'000'000;
+  const std::uint64_t version = 2, grid = 5'000'000;
   std::memcpy(content.data(), &version, 8);
   std::memcpy(content.data() + 8, &grid, 8);
   for (const char c : std::string("javiator")) content.push_back(static_cast<std::byte>(c));

@@ -14,21 +14,27 @@ namespace {
 using namespace jarol;
 using namespace jarol::distributers;
 
+// One that has come, and was greeted as by a vehicle's process of that grid.
+FrameStream greeted(const Descriptor& socket, std::int64_t grid) {
+  Descriptor runner;
+  while (!runner) runner = accept_from(socket);
+  FrameStream stream(std::move(runner));
+  std::vector<std::byte> welcome(19);
+  const std::uint64_t version = 2;
+  std::memcpy(welcome.data(), &version, 8);
+  std::memcpy(welcome.data() + 8, &grid, 8);
+  std::memcpy(welcome.data() + 16, "imc", 3);
+  stream.put(FrameKind::welcome, welcome);
+  stream.flush();
+  return stream;
+}
+
 // What a runner says to a vehicle's process whose welcome states that grid.
 std::string said_to(std::int64_t grid) {
   const Descriptor socket = listen_at(Address::parse("0"));
   const Address address = Address::parse(std::to_string(port_of(socket)));
   std::thread process([&] {
-    Descriptor runner;
-    while (!runner) runner = accept_from(socket);
-    FrameStream stream(std::move(runner));
-    std::vector<std::byte> welcome(19);
-    const std::uint64_t version = 1;
-    std::memcpy(welcome.data(), &version, 8);
-    std::memcpy(welcome.data() + 8, &grid, 8);
-    std::memcpy(welcome.data() + 16, "imc", 3);
-    stream.put(FrameKind::welcome, welcome);
-    stream.flush();
+    FrameStream stream = greeted(socket, grid);
     CHECK_THROWS_AS(stream.read(), FrameError);  // until it has gone
   });
   std::string said;
@@ -50,6 +56,38 @@ TEST_SUITE("distributers/links/lockstep") {
     CHECK(said_to(-7) == "its step is -7ns; it has to be above zero");
     CHECK(said_to(7) == "off its grid");
     CHECK(said_to(10) == "");
+  }
+
+  TEST_CASE("an answer that comes twice ends the run, as what it has is of another step") {
+    const Descriptor socket = listen_at(Address::parse("0"));
+    const Address address = Address::parse(std::to_string(port_of(socket)));
+    std::thread process([&] {
+      FrameStream stream = greeted(socket, 5'000'000);
+      try {
+        for (std::uint64_t steps = 0;;) {
+          const FrameStream::Frame asked = stream.read();
+          if (asked.kind == FrameKind::step) ++steps;
+          if (asked.kind != FrameKind::sense) continue;
+          for (int i = 0; i < (steps < 3 ? 1 : 2); ++i)
+            stream.put(FrameKind::sensed, std::as_bytes(std::span(&steps, 1)));
+          stream.flush();
+        }
+      } catch (const FrameError&) {
+        // until it has gone
+      }
+    });
+    {
+      LockstepSystem channels(address, 0, std::make_unique<Typed<LauvVehicle>>(),
+                              [](Duration) { return std::string(); });
+      channels.begin();
+      channels.reach(std::chrono::milliseconds(15));
+      CHECK_THROWS_WITH_AS(channels.reach(std::chrono::milliseconds(20)),
+                           ("the vehicle at " + address.text() +
+                            " is out of step: got what it senses after step 3, expected that after step 4")
+                               .c_str(),
+                           FrameError);
+    }
+    process.join();
   }
 
   TEST_CASE("a connection has ended also when the other end goes with bytes unread, which resets it") {
