@@ -62,6 +62,9 @@ class ExternalSystem {
   /// Something that was handed over has gone out.
   virtual bool has_sent() const { return true; }
 
+  /// What is wrong with how its link is set up, though it works, as in "listens where ..."; empty: nothing.
+  virtual std::string doubt() const { return {}; }
+
   /// What was carried until now, for channels that are on a link.
   virtual std::optional<LinkReport> link_report() const { return std::nullopt; }
 

@@ -7,6 +7,7 @@
 #include <functional>
 #include <list>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "runtime/execute/executor.h"
@@ -14,12 +15,21 @@
 
 namespace jarol::campaign {
 
+/// Where the campaign is to stop, and runs go on.
+struct WaitNote {
+  /// Of how many, once, when that is the case for as long.
+  std::function<void(std::size_t runs)> report;
+  const std::atomic<bool>& stop;
+  std::chrono::milliseconds after{1000};
+};
+
 /// Looks after runs under way on any threads, on one of its own.
 class StuckRuns {
  public:
   using Report = std::function<void(std::uint64_t run, const HangingTask& task)>;
 
-  explicit StuckRuns(Report report, std::chrono::milliseconds after = StuckNote{}.after);
+  explicit StuckRuns(Report report, std::optional<WaitNote> wait = std::nullopt,
+                     std::chrono::milliseconds after = StuckNote{}.after);
   ~StuckRuns();
 
   /// A run is under way while this lives.
@@ -37,9 +47,12 @@ class StuckRuns {
 
  private:
   void look();
+  void look_at_stop();
 
   const Report report_;
   const std::chrono::milliseconds after_;
+  std::optional<WaitNote> wait_;  // none: nobody wants to know, or knows
+  std::optional<std::chrono::steady_clock::time_point> stops_since_;
   std::mutex mutex_;
   std::condition_variable over_;
   bool is_over_ = false;

@@ -57,8 +57,20 @@ void Announcer::open() {
 }
 
 void Announcer::send(std::span<const std::byte> packet) {
+  for (std::size_t i = 0; i < to_.size(); ++i) {
+    if (sendto(sockets_[i].get(), packet.data(), packet.size(), MSG_NOSIGNAL, to_[i].get(), to_[i].size()) >= 0)
+      continue;
+    if (failures_[i].count == 0) failures_[i].error = errno;
+    ++failures_[i].count;
+  }
+}
+
+std::vector<std::pair<std::string, std::uint64_t>> Announcer::unsent() const {
+  std::vector<std::pair<std::string, std::uint64_t>> unsent;
   for (std::size_t i = 0; i < to_.size(); ++i)
-    sendto(sockets_[i].get(), packet.data(), packet.size(), MSG_NOSIGNAL, to_[i].get(), to_[i].size());
+    if (const std::uint64_t count = failures_[i].count; count > 0)
+      unsent.emplace_back("announcements to " + to_[i].text() + " (" + std::strerror(failures_[i].error) + ")", count);
+  return unsent;
 }
 
 }  // namespace jarol::distributers

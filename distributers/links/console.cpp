@@ -26,7 +26,26 @@ bool ConsolePort::send(messages::MessageRef message, std::string& why) {
   return false;
 }
 
-void ConsolePort::receive(messages::Receiver& receiver) { read_all(port_, read_, receiver); }
+// No more than there is room for, however fast the other side writes.
+template <class Take>
+void ConsolePort::read_all(PacketPort& port, Reading& reading, Take take) {
+  for (std::size_t left = port.capacity(); left > 0; --left) {
+    const std::optional<std::size_t> size = port.read(reading.room);
+    if (!size) return;
+    if (reading.reader.read(std::span(reading.room).first(*size)) == messages::PacketError::none)
+      take(reading.reader.message());
+  }
+}
+
+void ConsolePort::receive(messages::Receiver& receiver) {
+  read_all(port_, read_, [&](messages::MessageRef message) {
+    const bool waited_too_long = taken_++ < left_out_before_.load(std::memory_order_acquire);
+    if (waited_too_long && !is_for_emergencies(message.descriptor->name))
+      left_out_.fetch_add(1, std::memory_order_relaxed);
+    else
+      receiver.receive(message);
+  });
+}
 
 void ConsolePort::answer(messages::MessageRef message) {
   if (messages::write_packet(header_, message, set_.order, answer_packet_) && answers_.write(answer_packet_))
@@ -35,16 +54,8 @@ void ConsolePort::answer(messages::MessageRef message) {
     lost_.fetch_add(1, std::memory_order_relaxed);
 }
 
-void ConsolePort::receive_answers(messages::Receiver& receiver) { read_all(answers_, answers_read_, receiver); }
-
-// No more than there is room for, however fast the other side writes.
-void ConsolePort::read_all(PacketPort& port, Reading& reading, messages::Receiver& receiver) {
-  for (std::size_t left = port.capacity(); left > 0; --left) {
-    const std::optional<std::size_t> size = port.read(reading.room);
-    if (!size) return;
-    if (reading.reader.read(std::span(reading.room).first(*size)) == messages::PacketError::none)
-      receiver.receive(reading.reader.message());
-  }
+void ConsolePort::receive_answers(messages::Receiver& receiver) {
+  read_all(answers_, answers_read_, [&](messages::MessageRef message) { receiver.receive(message); });
 }
 
 ConsoleSystem::ConsoleSystem(std::unique_ptr<AnyDistributer> distributer)
@@ -59,9 +70,10 @@ std::optional<LinkReport> ConsoleSystem::link_report() const {
   LinkReport report;
   report.link = "console";
   report.heard = port_->given();
-  report.dropped = port_->refused();
+  report.dropped = port_->refused() + port_->left_out();
   report.counts = {{"messages in", report.heard},
-                   {"refused", report.dropped},
+                   {"refused", port_->refused()},
+                   {"left out: the page was gone", port_->left_out()},
                    {"messages out", port_->answered()},
                    {"lost", port_->lost()}};
   return report;

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "distributers/interfaces/any_distributer.h"
@@ -29,8 +30,14 @@ class ConsolePort {
   /// By the console's thread: the distributer gets the message at the next instant. False: it can't be sent, and `why`
   /// says why not.
   bool send(messages::MessageRef message, std::string& why);
+  /// By the console's thread: who sent what the run has not received yet is gone, so that it is left out, but for
+  /// emergencies.
+  void leave_out_waiting() { left_out_before_.store(given(), std::memory_order_release); }
   /// By the run: all that was sent.
   void receive(messages::Receiver& receiver);
+
+  /// Whoever sends these wants an end, whatever he sees and wherever he is by then.
+  static bool is_for_emergencies(std::string_view message) { return message == "Abort" || message == "SHUT_DOWN"; }
 
   /// By the run: what the distributer says to the operator. What finds no room is lost and counted; nobody waits.
   void answer(messages::MessageRef message);
@@ -38,6 +45,7 @@ class ConsolePort {
   void receive_answers(messages::Receiver& receiver);
 
   std::uint64_t given() const { return given_.load(std::memory_order_relaxed); }
+  std::uint64_t left_out() const { return left_out_.load(std::memory_order_relaxed); }
   std::uint64_t refused() const { return refused_.load(std::memory_order_relaxed); }
   std::uint64_t answered() const { return answered_.load(std::memory_order_relaxed); }
   std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
@@ -48,18 +56,21 @@ class ConsolePort {
   const messages::MessageSet& set_;
   const messages::Message header_;
   PacketPort port_, answers_;
-  std::atomic<std::uint64_t> given_{0}, refused_{0}, answered_{0}, lost_{0};
+  std::atomic<std::uint64_t> given_{0}, refused_{0}, left_out_{0}, answered_{0}, lost_{0};
+  std::atomic<std::uint64_t> left_out_before_{0};  // the message of that number, counted from 0
   struct Reading {
     std::vector<std::byte> room;
     messages::PacketReader reader;
   };
-  static void read_all(PacketPort& port, Reading& reading, messages::Receiver& receiver);
+  template <class Take>
+  static void read_all(PacketPort& port, Reading& reading, Take take);
   // of the console's thread
   std::vector<std::byte> packet_;
   Reading answers_read_;
   // of the run
   std::vector<std::byte> answer_packet_;
   Reading read_;
+  std::uint64_t taken_ = 0;  // from the port
 };
 
 class ConsoleSystem : public ExternalSystem {

@@ -212,6 +212,7 @@ LinkReport Link::report() const {
   add("send signals while busy", busy_);
   add("unsent: output port full", refused_);
   add("unsent: no peer", t.unsent);
+  for (auto& [what, count] : unsent_announcements()) add("unsent: " + what, count);
   if (ownership != nullptr) ownership->add_to(report);
   return report;
 }

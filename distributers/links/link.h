@@ -47,6 +47,10 @@ class Link {
   void send(messages::MessageRef message);
   /// Is there anybody to announce anything to?
   bool announces() const { return announcer_ != nullptr; }
+  /// As of Announcer.
+  std::vector<std::pair<std::string, std::uint64_t>> unsent_announcements() const {
+    return announcer_ ? announcer_->unsent() : std::vector<std::pair<std::string, std::uint64_t>>{};
+  }
   /// The same for all who may look for this system, in place of the peer.
   void announce(messages::MessageRef message);
   /// Wakes the sending thread for what was given to `send` and `announce` since the last call. Throws

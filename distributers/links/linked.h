@@ -21,6 +21,7 @@ class LinkedSystem : public ExternalSystem {
   bool sends() const override { return link_->sends(); }
   std::uint64_t unsent() const override { return link_->unsent(); }
   bool has_sent() const override { return link_->has_sent(); }
+  std::string doubt() const override { return link_->transport().doubt(); }
   std::optional<LinkReport> link_report() const override;
   std::uint64_t non_finite_inputs() const override { return distributer_->non_finite_inputs(); }
   void ending() override { distributer_->ending(); }

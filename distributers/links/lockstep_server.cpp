@@ -180,7 +180,7 @@ class Served {
   std::unique_ptr<vehicles::Vehicle> vehicle_;
   std::optional<std::string> no_state_;
   std::uint64_t steps_ = 0;  // since the start
-  int frames_ = 0;  // since the last look at the sensors
+  int frames_ = 0;           // since the last look at the sensors
 };
 
 // One that was greeted; `callers` may be null.

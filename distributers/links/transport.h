@@ -55,6 +55,9 @@ class Transport {
   /// To whom this end announces where it can be reached; none: to nobody.
   virtual std::vector<Address> announces_to() const { return {}; }
 
+  /// What is wrong with how it is set up, though it works, as in "announces itself where ..."; empty: nothing.
+  virtual std::string doubt() const { return {}; }
+
   /// Takes hold of what must be there from the begin, as a port to listen at. Throws std::runtime_error with the cause.
   virtual void open() = 0;
 

@@ -87,6 +87,16 @@ std::string UdpTransport::address() const {
   return reachable ? "udp://" + host.with_port(port()).text() : "";
 }
 
+std::string UdpTransport::doubt() const {
+  if (!listen_.is_loopback()) return "";
+  const auto far =
+      std::find_if(announce_.begin(), announce_.end(), [](const Address& address) { return !address.is_loopback(); });
+  if (far == announce_.end()) return "";
+  const std::string all = listen_.family() == AF_INET6 ? "[::]:" : "0.0.0.0:";
+  return "announces itself to " + far->text() + ", which can't answer, as " + listen_.text() +
+         " is reached from this machine alone; listen at " + all + std::to_string(listen_.port());
+}
+
 void UdpTransport::open() {
   Descriptor made(socket(listen_.family(), SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!made || !bind_with_patience(made.get(), listen_))

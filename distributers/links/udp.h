@@ -27,6 +27,7 @@ class UdpTransport : public Transport {
   std::string text() const override;
   std::string address() const override;
   std::vector<Address> announces_to() const override { return announce_; }
+  std::string doubt() const override;
   void open() override;
   void receive(const Interrupter& interrupter, ByteSink& sink) override;
   bool send(std::span<const std::byte> packet) override;

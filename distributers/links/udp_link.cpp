@@ -19,6 +19,16 @@ Address anywhere_towards(const Address& peer) {
   return Address::parse(v6 ? "[::]:0" : "0.0.0.0:0");
 }
 
+// Who hears of this link there, and can't answer to where it listens. All addresses of IPv6 are those of IPv4, too.
+void require_same_family(const Located<std::string>& announce, const std::vector<Address>& to, const Address& listen,
+                         Problems& problems) {
+  if (!listen || (listen.is_any() && listen.family() == AF_INET6)) return;
+  for (const Address& address : to)
+    if (address.family() != listen.family())
+      problems.add(announce.where, "whoever is at '" + address.text() + "' can't answer to '" + listen.text() +
+                                       "', where this link listens: one is IPv4, the other IPv6");
+}
+
 std::unique_ptr<Transport> make_udp(const UdpSpec& spec, const Yaml& yaml, const std::string& subject,
                                     Problems& problems) {
   const Address peer = read_address(spec.peer, problems);
@@ -32,9 +42,9 @@ std::unique_ptr<Transport> make_udp(const UdpSpec& spec, const Yaml& yaml, const
     problems.add(spec.peer->where,
                  "'" + spec.peer->value + "' is where this link listens itself; state where the other end does");
   try {
-    return std::make_unique<UdpTransport>(
-        listen, peer, spec.announce ? Announcer::parse(spec.announce->value) : std::vector<Address>{},
-        spec.silence_of_peer());
+    const std::vector<Address> to = spec.announce ? Announcer::parse(spec.announce->value) : std::vector<Address>{};
+    if (spec.announce) require_same_family(*spec.announce, to, listen, problems);
+    return std::make_unique<UdpTransport>(listen, peer, to, spec.silence_of_peer());
   } catch (const std::invalid_argument& error) {
     problems.add(spec.announce->where, error.what());
     return nullptr;

@@ -144,6 +144,9 @@ Loaded load_graph(const std::shared_ptr<const Source>& source, const distributer
   loaded.files = {source};
   loaded.channels = distributers::make_external_systems(*loaded.graph, *loaded.known, seed, problems, &loaded.files);
   add_conditions(loaded, problems, loaded.channels);
+  for (std::size_t i = 0; i < loaded.channels.size(); ++i)
+    if (const std::string doubt = loaded.channels[i] ? loaded.channels[i]->doubt() : ""; !doubt.empty())
+      note("distributer '" + loaded.graph->distributers[i].name + "' " + doubt);
   return loaded;
 }
 

@@ -1,11 +1,13 @@
 #include "graph/campaign/variation.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "graph/language/override.h"
+#include "graph/language/tables.h"
 
 namespace jarol::campaign {
 namespace {
@@ -74,6 +76,19 @@ std::optional<std::string_view> arguments_of(std::string_view text, std::string_
   return text.substr(name.size() + 1, text.size() - name.size() - 2);
 }
 
+// Below these no value changes what a run does.
+bool is_of_a_run(const std::string& path) {
+  constexpr std::array<std::string_view, 4> others{"graph", "plugins", "campaign", "profiles"};
+  return std::find(others.begin(), others.end(), path.substr(0, path.find('.'))) == others.end();
+}
+
+std::vector<std::string> sections_of_a_run() {
+  std::vector<std::string> names;
+  for (const auto& key : graph_keys())
+    if (is_of_a_run(key.name)) names.push_back(key.name);
+  return names;
+}
+
 class Reader {
  public:
   Reader(const std::string& path, const Location& where, const Yaml& yaml, Problems& problems)
@@ -84,6 +99,11 @@ class Reader {
   }
 
   std::optional<Variation> read() {
+    if (!is_of_a_run(made_.path)) {
+      problems_.add(made_.where, "'" + made_.path + "' can't vary, as it is no value of a run; what can is the seed, " +
+                                     "or a path below one of " + list_of(sections_of_a_run()));
+      return std::nullopt;
+    }
     const bool good = yaml_.kind == Yaml::Kind::sequence ? read_list()
                       : yaml_.kind != Yaml::Kind::scalar
                           ? fail("can't vary as " + std::string(kind_name(yaml_)) + how())

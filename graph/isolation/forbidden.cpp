@@ -12,6 +12,11 @@ bool waits_by_clock(const cs_insn& instruction) {
   return instruction.id == X86_INS_MFENCE && (first == 0x66 || first == 0xf2 || first == 0xf3);
 }
 
+// RDPID is RDSEED behind F3 (Intel SDM volume 2): capstone 4 knows that alone.
+bool asks_for_core(const cs_insn& instruction) {
+  return instruction.id == X86_INS_RDSEED && instruction.bytes[0] == 0xf3;
+}
+
 }  // namespace
 
 bool uses_mmx(const cs_insn& instruction) {
@@ -22,6 +27,7 @@ bool uses_mmx(const cs_insn& instruction) {
 }
 
 const char* name_of(const cs_insn& instruction) {
+  if (asks_for_core(instruction)) return "rdpid";
   if (!waits_by_clock(instruction)) return instruction.mnemonic;
   switch (instruction.bytes[0]) {
     case 0x66: return "tpause";
@@ -77,8 +83,9 @@ const char* reason_against(const cs_insn& instruction) {
     case X86_INS_F2XM1:
     case X86_INS_FYL2X:
     case X86_INS_FYL2XP1: return "an approximation that differs from processor to processor";
-    case X86_INS_RDRAND:
-    case X86_INS_RDSEED: return "which makes random numbers";
+    case X86_INS_RDRAND: return "which makes random numbers";
+    case X86_INS_RDSEED:
+      return asks_for_core(instruction) ? "which asks what processor or core this is" : "which makes random numbers";
     case X86_INS_CPUID:
     case X86_INS_XGETBV:
     case X86_INS_SGDT:

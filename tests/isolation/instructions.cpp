@@ -51,6 +51,18 @@ TASK(HardwareSeed, {
   asm volatile("rdseed %0" : "=r"(random));
   out.out = static_cast<double>(random);
 })
+// offends: forbidden instruction: rdpid: AsksCore::run
+TASK(AsksCore, {
+  unsigned long core;
+  asm volatile("rdpid %0" : "=r"(core));
+  out.out = static_cast<double>(core);
+})
+// offends: forbidden instruction: rdpid: AsksCoreIntoAnother::run
+TASK(AsksCoreIntoAnother, {
+  unsigned long core;
+  asm volatile("rdpid %%r9\n mov %%r9, %0" : "=r"(core) : : "r9");
+  out.out = static_cast<double>(core);
+})
 // offends: forbidden instruction: cpuid: AsksProcessor::run
 TASK(AsksProcessor, {
   unsigned a = 0, b, c, d;
@@ -217,9 +229,9 @@ TASK(Numbers, {
 }  // namespace
 
 JAROL_PLUGIN(SystemCall, WritesThreadLocal, OldSystemCall, Cycles, CyclesAndCore, HardwareRandom, HardwareSeed,
-             AsksProcessor, AsksState, SetsRounding, ReadsFlags, SetsOldRounding, TalksToDevice, HooksSine,
-             ReadsSegment, ReadsGuard, WritesGuard, MiddleOfInstruction, ForgedFromInput, ForgedFromState,
-             ForgedBesideGood, ForgedTailCall, ForgedObject, ForgedFromTable, ForgedByIndex, ForgedInArray,
-             ForgedAmongGood, ForgedInLoop, Numbers, UsesMmx, FreesRegister, TurnsRegisters, LooksUpByte,
+             AsksCore, AsksCoreIntoAnother, AsksProcessor, AsksState, SetsRounding, ReadsFlags, SetsOldRounding,
+             TalksToDevice, HooksSine, ReadsSegment, ReadsGuard, WritesGuard, MiddleOfInstruction, ForgedFromInput,
+             ForgedFromState, ForgedBesideGood, ForgedTailCall, ForgedObject, ForgedFromTable, ForgedByIndex,
+             ForgedInArray, ForgedAmongGood, ForgedInLoop, Numbers, UsesMmx, FreesRegister, TurnsRegisters, LooksUpByte,
              ReachesByDistance, ReachesByIndex, SavesCompact, SavesSome, Pauses, WaitsForWrite, OrdersMemory,
              ApproximatesRoots, ApproximatesReciprocal, ApproximatesBetter, OldSine)

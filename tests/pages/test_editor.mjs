@@ -253,6 +253,10 @@ test('it is run in simulation as it stands, and its report is shown', vehicles, 
   assert.match(await (await fetch(url)).text(), /Jarol console/);
   await shown.press('Stop');
   await shown.page.until(`/stopped/.test(document.querySelector('[aria-label=run]').textContent)`);
+  // a page that comes later does not show it
+  await shown.page.evaluate(`window.isOld = true; location.reload()`);
+  await shown.page.until(`window.isOld === undefined && document.querySelector('[aria-label=verdict]:not(.old)')?.textContent === 'schedulable'`);
+  assert.equal(await shown.text('[aria-label=run]'), '');
   await shown.end();
 });
 

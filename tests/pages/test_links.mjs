@@ -90,11 +90,15 @@ test('a run whose connection breaks is watched again, and to its end', async () 
   const port = await ForwardedPort.to(await run.url);
   const shown = await Console.open(browser, port.url);
   await shown.state('live');
+  await shown.choose('signal to add', 'sum.out');
+  const isPlotted = `document.querySelector('[aria-label="plot of sum.out"] canvas') !== null`;
+  await shown.page.until(isPlotted);
   for (let i = 0; i < 2; ++i) {
     await port.cut();
     await shown.state('connection lost');
     await port.mend();
     await shown.state('live');
+    await shown.page.until(isPlotted);
   }
   await shown.choose('speed', 'max');
   await shown.state('ended');

@@ -35,6 +35,17 @@ TEST_SUITE("tools/first") {
     }
   }
 
+  TEST_CASE("tools/build refuses options that don't stand first, and --first beside another word") {
+    const auto refused = [](const std::string& words) { return command::run_jarol(words, "2>&1", "tools/build"); };
+    const std::string alone = "error: --first stands alone: it builds no other targets, and no page\n";
+    for (const std::string words : {"--page --first", "--first --page", "--first jarol"}) {
+      CHECK(refused(words).output == alone);
+      CHECK(refused(words).exit_code == 2);
+    }
+    CHECK(refused("jarol --page").output ==
+          "error: '--page' is no target, and options stand first: tools/build [--page] [TARGET ...]\n");
+  }
+
   TEST_CASE("of each other command, and of web pages, it says how to build them") {
     int exit_code = 0;
     std::vector<std::string> names{"check", "run", "tasks"};

@@ -53,6 +53,17 @@ TEST_SUITE("tools/vehicle_link") {
     CHECK(heard[0].find("imc+udp://127.0.0.1:" + port + "/") != std::string::npos);
   }
 
+  TEST_CASE(
+      "a vehicle that announces itself to where nobody can answer notes that, and reports what it could not send") {
+    const std::string port = jarol::tests::free_port(SOCK_DGRAM);
+    const auto run = command::run_jarol("vehicle submarine --link udp --listen " + port +
+                                        " --for 100ms --announce 127.0.0.1:0,192.0.2.1:30100");
+    CHECK(run.output.find(
+              "note: the submarine announces itself to 192.0.2.1:30100, which can't answer, as 127.0.0.1:" + port +
+              " is reached from this machine alone; listen at 0.0.0.0:" + port + "\n") != std::string::npos);
+    CHECK(run.output.find(", 1 unsent: announcements to 127.0.0.1:0 (Invalid argument)") != std::string::npos);
+  }
+
   TEST_CASE("a peer that sends back what it gets is no vehicle: the run says that nothing came, and ends with 3") {
     std::atomic<bool> ends{false};
     const int echo = ::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK, 0);

@@ -161,7 +161,7 @@ int run(const CampaignOptions& options) {
   campaign::Results results(results_file, stated.identity, campaign);
   const campaign::RunRange range = shard.of(draws.runs());
   const std::vector<std::uint64_t> to_run = missing(results.done(draws.runs()), range);
-  campaign::StuckRuns stuck(report_stuck_in_run);
+  campaign::StuckRuns stuck(report_stuck_in_run, {{report_waits_for_runs, Interruptible::interrupted()}});
   CampaignPace pace(range.size(), to_run.size());
   {
     const Interruptible interruptible;
@@ -287,8 +287,8 @@ void add_campaign(CommandLine& line, int& exit_code) {
       ->file({"html"});
   command->add_flag(
       "--shrink", options->shrink,
-      "When all runs, or those of --shard, are there: find the mildest values at which the first run that is "
-      "not good still ends so, by more runs; those that are refused are passed over");
+      "When all runs (of --shard) are there: find, by more runs, the mildest values, nearest to the middle of a range "
+      "or first in a list, with which the first run that is not good, and was not refused, fails as it did");
   command->add_flag("--json", options->json, "One JSON object instead of text");
   command->callback([options, &exit_code] {
     try {

@@ -23,6 +23,9 @@ struct EditOptions {
 
 int edit_graph(const EditOptions& options) {
   if (options.file == "-") throw std::invalid_argument("'-' is stdin, which can't be written; name the graph's file");
+  if (std::filesystem::is_other(options.file))
+    throw std::invalid_argument("'" + options.file +
+                                "' is no regular file, which can't be saved; name the graph's file");
   const Interruptible interruptible;
   const edit::Editor editor({.file = options.file,
                              .program = std::filesystem::read_symlink("/proc/self/exe"),

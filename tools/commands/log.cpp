@@ -29,6 +29,7 @@ int look(const Command& command, Words& words) {
   if (what == "info" || what == "verify" || has_graph)
     command.refuse({"--topic", "--from", "--until"}, "belongs to cat, csv and diff");
   if (what == "diff") command.refuse({"--topic"}, "belongs to cat and csv");
+  if (what != "diff") command.refuse({"--common"}, "belongs to diff");
   if (words.until <= words.from)
     throw std::invalid_argument("--until: '" + words.until_text + "' is not after " +
                                 (words.from_text.empty() ? "the begin" : "--from, '" + words.from_text + "'"));
@@ -89,6 +90,10 @@ void add_log(CommandLine& line, int& exit_code) {
           "--out,-o", words->out,
           "The file to write; default: of trace stdout, of report FILE with .html in place of .mcap; -: stdout")
       ->file();
+  command->add_flag(
+      "--common", words->common,
+      "Of diff: compare the values of topics that both have, as of two graphs, and name those left out; events, "
+      "digests and counts are of whole runs, and are left out, too");
   command->add_flag("--json", words->json, "One JSON object instead of text");
   command->callback([words, command, &exit_code] {
     try {

@@ -32,8 +32,10 @@ bool sends(const Received& message, const char* abbrev) {
   return text_of(message, "do") == "send" && text_of(message, "message") == abbrev;
 }
 
-// These are obeyed however late they come: who sends them wants an end, whatever it is that he sees.
-bool is_for_emergencies(const Received& message) { return sends(message, "Abort") || sends(message, "SHUT_DOWN"); }
+// These are obeyed however late they come.
+bool is_for_emergencies(const Received& message) {
+  return text_of(message, "do") == "send" && distributers::ConsolePort::is_for_emergencies(text_of(message, "message"));
+}
 
 // What a take-over could jerk the vehicle by.
 void require_centred(const Received& message) {
@@ -188,6 +190,8 @@ void Desk::send(Seat& seat, const Received& message) {
 void Desk::free(Seat& seat, const std::string& why) {
   seat.page.reset();
   seat.why = why;
+  // a run that is paused or slow would obey whom it does not hear any more
+  seat.of.port->leave_out_waiting();
   changed_ = true;
 }
 

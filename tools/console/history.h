@@ -32,6 +32,8 @@ class History {
   };
   /// Of a page that comes now: it gets all that is there.
   Place begin() const { return {first_, 0, first_ + messages_.size()}; }
+  /// Of one that gets only what comes from now on.
+  Place end() const { return {first_ + messages_.size(), 0, first_ + messages_.size()}; }
   /// The next message for a page, if there is one now. One that has had all that was there before it and has fallen
   /// behind by more than `max_behind` messages goes on with the newest. `at_end`: that are all; who is slow goes on
   /// with the last few.

@@ -170,6 +170,7 @@ class Server::Implementation {
   const Answer answer_;
   const Left left_;
   std::uint64_t pages_ = 0;  // so far
+  const bool replays_;
   History history_;
   std::size_t connections_ = 0;  // watchers among them
   // that have not shown the token, the oldest first
@@ -202,7 +203,8 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
     socket_.read_message_max(server_.max_message_);
     socket_.async_accept(request, [self = shared_from_this()](Error error) {
       if (error || self->server_.ending_) return;
-      self->place_ = self->server_.history_.begin();
+      const History& history = self->server_.history_;
+      self->place_ = self->server_.replays_ ? history.begin() : history.end();
       self->server_.watchers_.insert(self);
       self->read();
       self->add_own(self->server_.hello_);
@@ -407,6 +409,7 @@ Server::Implementation::Implementation(const ServerOptions& options, std::string
       next_(std::move(next)),
       answer_(std::move(answer)),
       left_(std::move(left)),
+      replays_(options.replays),
       history_(max_history, options.skips) {
   Error error;
   const asio::ip::address address = asio::ip::make_address(options.listen, error);

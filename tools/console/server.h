@@ -18,6 +18,7 @@ struct ServerOptions {
   std::size_t max_message = std::size_t{16} << 10;  // bytes, of what a page sends
   std::size_t max_answers = std::size_t{4} << 20;   // bytes that a page was answered and has not taken
   bool skips = true;                                // a page that is slow goes on with the newest
+  bool replays = true;                              // a page that comes gets all that was shown before
 };
 
 /// Who asks.

@@ -69,6 +69,40 @@ TEST_SUITE("distributers/links/announcer") {
     link.disconnect();
   }
 
+  TEST_CASE("what can't be sent to an address is counted there, with the cause, and the others get it") {
+    Socket one;
+    // nothing can be sent to port 0
+    const auto to = Announcer::parse("127.0.0.1:0," + one.port());
+    Link link(std::make_unique<UdpTransport>(Address::parse("0"), Address{}, to), imc::message_set(), {});
+    link.connect();
+    for (int i = 0; i < 3; ++i) {
+      link.announce(messages::refer_to(imc::Heartbeat{}));
+      link.flush();
+      CHECK(one.next() == 22);
+    }
+    link.disconnect();
+    const auto unsent = link.unsent_announcements();
+    REQUIRE(unsent.size() == 1);
+    CHECK(unsent[0].first == "announcements to 127.0.0.1:0 (Invalid argument)");
+    CHECK(unsent[0].second == 3);
+    CHECK(link.report().counts.back() ==
+          std::pair<std::string, std::uint64_t>("unsent: announcements to 127.0.0.1:0 (Invalid argument)", 3));
+  }
+
+  TEST_CASE("who announces itself beyond this machine and listens at its loopback is in doubt") {
+    const auto doubt = [](const std::string& listen, const std::string& announce) {
+      return UdpTransport(Address::parse(listen), Address{}, Announcer::parse(announce)).doubt();
+    };
+    CHECK(doubt("6001", "30100-30104,10.0.0.255:30100") ==
+          "announces itself to 10.0.0.255:30100, which can't answer, as 127.0.0.1:6001 is reached from this machine "
+          "alone; listen at 0.0.0.0:6001");
+    CHECK(doubt("[::1]:6001", "[2001:db8::1]:30100") ==
+          "announces itself to [2001:db8::1]:30100, which can't answer, as [::1]:6001 is reached from this machine "
+          "alone; listen at [::]:6001");
+    CHECK(doubt("0.0.0.0:6001", "10.0.0.255:30100") == "");
+    CHECK(doubt("6001", "30100-30104") == "");
+  }
+
   TEST_CASE("only packets of the source that was named and to this system count, and make their sender the peer") {
     const auto make = [](std::uint64_t id, const Address& listen, const Address& peer, const LinkOptions& options) {
       LinkOptions its = options;

@@ -76,8 +76,28 @@ TEST_SUITE("distributers/links/console") {
     CHECK(at.reach(0ms).shut_downs == ConsolePort::max_packets);
     const LinkReport report = *at.channels.link_report();
     CHECK(report.link == "console");
-    CHECK(report.counts == std::vector<std::pair<std::string, std::uint64_t>>{
-                               {"messages in", 64}, {"refused", 1}, {"messages out", 0}, {"lost", 0}});
+    CHECK(
+        report.counts ==
+        std::vector<std::pair<std::string, std::uint64_t>>{
+            {"messages in", 64}, {"refused", 1}, {"left out: the page was gone", 0}, {"messages out", 0}, {"lost", 0}});
+  }
+
+  TEST_CASE("what still waits when its sender has gone is left out and counted, but for emergencies") {
+    Channelled at;
+    CHECK(at.send(messages::refer_to(javiator::CommandData{.roll = 75})));
+    CHECK(at.send(messages::refer_to(javiator::ShutDown{})));
+    CHECK(at.send(messages::refer_to(javiator::CommandData{.roll = 80})));
+    at.channels.port()->leave_out_waiting();
+    CHECK(at.reach(0ms).roll == 0);
+    CHECK(at.command.shut_downs == 1);
+    CHECK(at.send(messages::refer_to(javiator::CommandData{.roll = -30})));
+    CHECK(at.reach(15ms).roll == -0.03);
+    const LinkReport report = *at.channels.link_report();
+    CHECK(
+        report.counts ==
+        std::vector<std::pair<std::string, std::uint64_t>>{
+            {"messages in", 4}, {"refused", 0}, {"left out: the page was gone", 2}, {"messages out", 0}, {"lost", 0}});
+    CHECK(report.dropped == 2);
   }
 
   TEST_CASE("what the distributer answers reaches the console, to the word") {

@@ -14,7 +14,8 @@ import yaml
 # What only a program that resolves names, reads files and does sums can see, each with the reason.
 BEYOND_A_SCHEMA = {
     "what other parts of the graph are called": """
-        campaign_unknown_path chain_not_connected chain_unknown_end channel_with_two_readers channel_with_two_writers
+        campaign_unknown_path campaign_vary_no_value chain_not_connected chain_unknown_end channel_with_two_readers
+        channel_with_two_writers
         communicator_named_as_a_task communicator_open communicator_unknown_distributer connection_dot_at_communicator
         connection_fed_twice connection_from_an_out connection_to_an_in connection_types connection_unknown_end
         connection_unknown_input connection_unknown_output connection_without_input connection_without_output
@@ -25,7 +26,8 @@ BEYOND_A_SCHEMA = {
         deadline_later_than_let let_longer_than_period
         offset_not_below_period period_missing period_no_part_of_the_graph timeout_shorter_than_period
         duration_beyond_ten_years duration_part_of_a_nanosecond duration_too_large heap_too_large heap_too_small
-        heaps_too_large_together heap_initial_values heap_of_nothing size_part_of_a_byte link_announces_nowhere link_listens_to_itself
+        heaps_too_large_together heap_initial_values heap_of_nothing size_part_of_a_byte link_announces_nowhere
+        link_announces_to_other_family link_listens_to_itself
         init_not_finite_in_its_unit""",
     "the language of conditions": """
         at_end_until_comparison at_end_until_metric at_end_until_names at_end_until_once at_end_until_true

@@ -125,13 +125,14 @@ std::string notes_of(const Summary& summary) {
 }
 
 std::string shrunk_text(const CampaignOutcome& outcome) {
-  if (outcome.all_refused) return "  no run to make milder: all that are not good are refused\n";
+  if (outcome.all_refused) return "  no mildest values: all runs that are not good were refused\n";
   if (outcome.shrunk == nullptr) return "";
   const campaign::Shrunk& shrunk = *outcome.shrunk;
-  return fmt::format("  run {} {}: {}\n    {}\n", shrunk.start.index,
-                     shrunk.at_the_middle ? "is no worse than one in the middle of all ranges"
-                                          : fmt::format("in its mildest form, after {} runs more", shrunk.tried),
-                     printable(shrunk.result.why), printable(outcome.repeat_shrunk));
+  const std::string what = shrunk.at_the_middle
+                               ? fmt::format("run {} fails with each value at its mildest, too", shrunk.start.index)
+                               : fmt::format("mildest values with which run {} still fails, by {} more runs",
+                                             shrunk.start.index, shrunk.tried);
+  return fmt::format("  {}: {}\n    {}\n", what, printable(shrunk.result.why), printable(outcome.repeat_shrunk));
 }
 
 Json shrunk_json(const CampaignOutcome& outcome) {

@@ -59,11 +59,15 @@ Json hello_of(const EditorOptions& options, const std::vector<std::string>& plug
 Editor::Editor(EditorOptions options) : options_(std::move(options)), file_(options_.file) {
   const Version opened = file_.read();
   seen_ = opened.hash;
-  plugins_ = plugins_of(std::make_shared<Source>(Source{options_.file, opened.text}));
+  const auto source = std::make_shared<Source>(Source{options_.file, opened.text});
+  require_profile(source, options_.profile);
+  plugins_ = plugins_of(source);
   console::ServerOptions server = options_.server;
   server.page = "/edit.html";
   server.max_message = max_message;
   server.max_answers = max_answers;
+  // what is on the disk, and how a trial stands, is asked for
+  server.replays = false;
   server_ = std::make_unique<console::Server>(
       server, dump({{"hello", hello_of(options_, plugins_)}}), [this] { return next_messages(); },
       [this](const console::Page& page, const std::string& message) { return answer(page.number, message); });
@@ -99,8 +103,12 @@ std::string Editor::answer(std::uint64_t page, const std::string& message) {
     if (trial_) trial_->stop();
     return "";
   }
+  if (what == "trial") {
+    const std::lock_guard lock(mutex_);
+    return trial_state_;
+  }
   throw std::invalid_argument("there is no '" + console::shortened(what) +
-                              "' to do; there are: open, judge, save, run, stop");
+                              "' to do; there are: open, judge, save, run, stop, trial");
 }
 
 // Verdict, drawing and suggestions come when they are there, each by a thread of its own; those that help a graph that
@@ -139,6 +147,12 @@ std::string Editor::save(const std::string& text, const std::string& over) {
   return dump({{"saved", {{"hash", hash_of(text)}}}});
 }
 
+// With the lock.
+void Editor::say_of_trial(std::string state) {
+  trial_state_ = std::move(state);
+  messages_.push_back(trial_state_);
+}
+
 void Editor::run(const nlohmann::json& json) {
   TrialOptions trial{.file = options_.file,
                      .text = text_in(json, "text"),
@@ -152,7 +166,7 @@ void Editor::run(const nlohmann::json& json) {
     throw std::invalid_argument("the text names plugins: " + refused);
   const auto say = [this](Json state) {
     const std::lock_guard lock(mutex_);
-    messages_.push_back(dump({{"trial", std::move(state)}}));
+    say_of_trial(dump({{"trial", std::move(state)}}));
   };
   // one that can't begin does not end the one before
   require_sound(trial);
@@ -167,7 +181,7 @@ void Editor::run(const nlohmann::json& json) {
       [say](const TrialEnd& end) {
         say({{"state", "ended"}, {"exit_code", end.exit_code}, {"stopped", end.ended}, {"text", end.text}});
       });
-  messages_.push_back(dump({{"trial", {{"state", "running"}, {"watched", trial.watched}}}}));
+  say_of_trial(dump({{"trial", {{"state", "running"}, {"watched", trial.watched}}}}));
 }
 
 // Besides what trials say, whether the file has changed.

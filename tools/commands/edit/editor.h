@@ -45,6 +45,7 @@ class Editor {
   void judge(std::uint64_t page, const nlohmann::json& json);
   std::string save(const std::string& text, const std::string& over);
   void run(const nlohmann::json& json);
+  void say_of_trial(std::string state);
   void send(std::uint64_t page, std::string message);
   std::vector<std::string> next_messages();
 
@@ -55,6 +56,7 @@ class Editor {
   std::string seen_;                  // hash of the file when it was looked at last
   Clock::time_point looked_{};
   std::vector<std::string> messages_;  // for all pages
+  std::string trial_state_;            // the last message of the newest trial; empty: there was none
   std::string stamp_;                  // size and time of the file then
 
   std::unique_ptr<Trial> trial_;             // on the server's thread

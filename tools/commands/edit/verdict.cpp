@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "graph/language/override.h"
 #include "graph/plugins/plugins.h"
 #include "tools/commands/check/check_graph.h"
 #include "tools/commands/edit/spec_drawing.h"
@@ -68,6 +69,16 @@ std::vector<std::string> plugins_of(const std::shared_ptr<const Source>& source)
   std::vector<std::string> plugins;
   for (const auto& plugin : text_of({source, {}}).plugins) plugins.push_back(plugin.value);
   return plugins;
+}
+
+void require_profile(const std::shared_ptr<const Source>& source, const std::string& profile) {
+  if (profile.empty()) return;
+  GraphText text = text_of({source, {}});
+  const Yaml* const profiles = text.readable ? text.tree.find("profiles") : nullptr;
+  if (!text.readable || (profiles != nullptr && profiles->find(profile) != nullptr)) return;
+  Problems problems;
+  apply_profile(text.tree, profile, problems);
+  problems.throw_if_any();
 }
 
 std::string refused_plugins(const Source& text, const std::vector<std::string>& allowed) {

@@ -20,6 +20,8 @@ struct EditedText {
 /// Plugins are code: of a text that is not saved those are loaded that the saved one names, `allowed`. Empty: the text
 /// names no others; else why they are refused.
 std::string refused_plugins(const Source& text, const std::vector<std::string>& allowed);
+/// Throws SpecError where the text can be read and has no such profile; empty: none is needed.
+void require_profile(const std::shared_ptr<const Source>& source, const std::string& profile);
 /// Paths as the text has them.
 std::vector<std::string> plugins_of(const std::shared_ptr<const Source>& source);
 

@@ -13,6 +13,7 @@ struct LogOptions {
   Duration from{}, until = Duration::max();
   std::string by_rate;  // a folder
   std::string out;      // a file
+  bool common = false;  // of `diff`: topics that both have alone
   bool json = false;
 };
 

@@ -19,11 +19,12 @@
 namespace jarol::tools {
 namespace {
 
-// Topics of both with one schema; what only one has, or has otherwise, is a difference.
+// Topics of both with one schema; what only one has, or has otherwise, is a difference, or left out.
 struct Common {
   std::vector<bool> a = std::vector<bool>(65536), b = std::vector<bool>(65536);
   std::map<std::string, MessageLayout> layouts;
-  std::vector<std::string> apart;  // sentences
+  std::vector<std::string> apart;     // sentences
+  std::vector<std::string> left_out;  // likewise
 };
 
 // What was published, came from outside, and where vehicles truly were.
@@ -130,6 +131,17 @@ void compare_instant(Duration instant, const std::vector<RecordedInstants::Messa
   }
 }
 
+// What is apart beside values: of whole runs.
+void compare_runs(const Recording& a, const Recording& b, const LogOptions& options, bool all,
+                  std::vector<std::string>& apart) {
+  if (std::string text = find_other_event(read_events(a), read_events(b), options); !text.empty())
+    apart.push_back(std::move(text));
+  if (all)
+    for (std::string& text : find_other_ends(a, b)) apart.push_back(std::move(text));
+  if (options.from <= Duration{})
+    if (std::string text = find_other_digest(a, b, options.until); !text.empty()) apart.push_back(std::move(text));
+}
+
 }  // namespace
 
 int log_diff(const LogOptions& options) {
@@ -139,8 +151,7 @@ int log_diff(const LogOptions& options) {
   note_gaps(a, options.file);
   note_gaps(b, options.other);
   Common common = common_of(a, b);
-  if (std::string text = find_other_event(read_events(a), read_events(b), options); !text.empty())
-    common.apart.push_back(std::move(text));
+  if (options.common) common.left_out.swap(common.apart);
   Differences differences;
   RecordedInstants was(a, common.a, options.from), is(b, common.b, options.from);
   const std::vector<RecordedInstants::Message> none;
@@ -156,12 +167,8 @@ int log_diff(const LogOptions& options) {
     if (in_is) more_is = is.next();
   }
   const bool all = options.from <= Duration{} && options.until == Duration::max();
-  const bool ends = all && find_end(a) && find_end(b);
-  if (all)
-    for (std::string& text : find_other_ends(a, b)) common.apart.push_back(std::move(text));
-  if (options.from <= Duration{})
-    if (std::string text = find_other_digest(a, b, options.until); !text.empty())
-      common.apart.push_back(std::move(text));
+  const bool ends = !options.common && all && find_end(a) && find_end(b);
+  if (!options.common) compare_runs(a, b, options, all, common.apart);
   const auto breaks = breaks_of(a, b);
   const bool same = !differences.first() && common.apart.empty();
   // two recordings of inputs alone are compared by their ends
@@ -171,17 +178,22 @@ int log_diff(const LogOptions& options) {
     json["schema"] = "jarol.log_diff/1";
     json["verdict"] = nothing ? "nothing_compared" : !same ? "different" : breaks.empty() ? "same" : "same_so_far";
     json["apart"] = common.apart;
+    if (options.common) json["left_out"] = common.left_out;
     json["breaks_off"] = nlohmann::ordered_json::object();
     for (const auto& [name, where] : breaks) json["breaks_off"][name] = where;
     std::cout << json_line(json);
   } else {
-    if (nothing) std::cout << "NOTHING TO COMPARE: both have no values" << (all ? "" : " in that time") << "\n";
+    if (nothing)
+      std::cout << "NOTHING TO COMPARE: " << (options.common ? "no topic of both has values" : "both have no values")
+                << (all ? "" : " in that time") << "\n";
     if (same && !nothing)
-      std::cout << fmt::format("the same, {} values{}\n", differences.compared(),
+      std::cout << fmt::format("the same, {} values{}{}\n", differences.compared(),
+                               options.common ? " of topics that both have" : "",
                                breaks.empty() ? "" : ", as far as both go");
     if (!same) std::cout << fmt::format("DIFFERENT, {} values compared\n", differences.compared());
     std::cout << text_of(differences);
     for (const std::string& text : common.apart) std::cout << "  apart       " << printable(text) << "\n";
+    for (const std::string& text : common.left_out) std::cout << "  left out    " << printable(text) << "\n";
     for (const auto& [name, where] : breaks)
       std::cout << fmt::format("  breaks off  {} {}; what it lacks after that counts as different\n", name,
                                printable(where));

@@ -14,8 +14,11 @@ bool are_same(const std::string& a, const std::string& b) {
   std::error_code none;
   // a device or a FIFO takes what several write
   if (fs::is_other(fs::status(a, none))) return false;
-  return fs::equivalent(a, b, none) ||
-         fs::weakly_canonical(target_of(a), none) == fs::weakly_canonical(target_of(b), none);
+  // "./z" and "z" are one file, also where that is not there yet
+  const auto place = [&](const std::string& path) {
+    return fs::weakly_canonical(fs::absolute(target_of(path), none), none);
+  };
+  return fs::equivalent(a, b, none) || place(a) == place(b);
 }
 
 }  // namespace

@@ -30,4 +30,9 @@ void report_stuck_in_run(std::uint64_t run, const HangingTask& task) {
       " for a while; if it never does, Ctrl-C twice ends the campaign, with the results of all runs that are done");
 }
 
+void report_waits_for_runs(std::size_t runs) {
+  note_promptly("waits for " + (runs == 1 ? "a run" : std::to_string(runs) + " runs") +
+                " to end; Ctrl-C again ends the campaign at once, with the results of all runs that are done");
+}
+
 }  // namespace jarol::tools

@@ -19,5 +19,7 @@ void note_promptly(const std::string& text);
 void report_stuck(const HangingTask& task);
 /// Likewise, in a run of a campaign.
 void report_stuck_in_run(std::uint64_t run, const HangingTask& task);
+/// Likewise, of runs under way of a campaign that was interrupted.
+void report_waits_for_runs(std::size_t runs);
 
 }  // namespace jarol::tools

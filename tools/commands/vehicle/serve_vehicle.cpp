@@ -99,6 +99,8 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
   const std::atomic<bool>& interrupted = Interruptible::interrupted();
   link.connect();
   std::cerr << vehicle_class.name << ": " << link.transport().text() << ", until Ctrl-C\n";
+  if (const std::string doubt = link.transport().doubt(); !doubt.empty())
+    std::cerr << "note: the " << vehicle_class.name << " " << doubt << "\n";
   int exit_code = exit_good;
   clock.start();
   const Duration grid = vehicle.grid();

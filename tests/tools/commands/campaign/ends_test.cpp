@@ -3,8 +3,10 @@
 #include <doctest/doctest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <thread>
 
 #include "tests/tools/process.h"
 #include "tests/tools/run_command.h"
@@ -50,6 +52,25 @@ TEST_SUITE("tools/commands/campaign/ends") {
                     .output.starts_with("g, shard 1/2 (runs 0 to 1): 2 of 2 runs, 2 good\n"));
       }
     }
+  }
+
+  TEST_CASE("a campaign that is interrupted says for how many runs it waits, and a second Ctrl-C ends it") {
+    const TemporaryFolder folder;
+    const std::string plugin = std::filesystem::absolute(JAROL_PLUGIN_FOLDER "/endless.so").string();
+    const std::string file =
+        folder.write("endless.yaml", "graph: g\nplugins: [" + plugin +
+                                         "]\ntiming: {period: 10ms}\ntasks: {e: {type: Endless, wcet: 1us}}\n");
+    Process process("campaign " + file + " --for 1s --vary seed=1..4 --workers 2 --results " + (folder / "r"));
+    for (int i = 0; i < 2000 && !std::filesystem::exists(folder / "r-wal"); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    process.interrupt();
+    CHECK(
+        process.says("note: waits for 2 runs to end; Ctrl-C again ends the campaign at once, with the results of all "
+                     "runs that are done\n"));
+    process.interrupt();
+    CHECK(process.end() == -SIGINT);
+    CHECK(process.errors().ends_with("interrupted again: ended at once, without a report\n"));
   }
 
   TEST_CASE("a table or page that can't be made is reported before the first run, and one that stands there stays") {

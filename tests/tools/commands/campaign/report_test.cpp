@@ -100,11 +100,11 @@ TEST_SUITE("tools/commands/campaign/report") {
                                      "  results     r\n");
   }
 
-  TEST_CASE("where all runs that are not good are refused, the report says that there is none to make milder") {
+  TEST_CASE("where all runs that are not good are refused, the report says that there are no mildest values") {
     const Reported refused = reported(summary_of(10), true);
     CHECK(refused.text == title + columns + numbers +
                               "  worst d: 9 s in run 4\n    repeat 4\n"
-                              "  no run to make milder: all that are not good are refused\n  results     r\n");
+                              "  no mildest values: all runs that are not good were refused\n  results     r\n");
     CHECK(refused.json["shrunk"].is_null());
     CHECK(!reported(summary_of(10)).json.contains("shrunk"));
   }
@@ -128,7 +128,8 @@ TEST_SUITE("tools/commands/campaign/report") {
     CAPTURE(twelve.output);
     CHECK(twelve.output.find(" of 12 runs, 7 good, 2 bad, 3 refused;") != std::string::npos);
     CHECK(twelve.output.ends_with(
-        "  run 3 in its mildest form, after 13 runs more: metric 'deepest' is beyond its limit: it reached 3.2001 m\n"
+        "  mildest values with which run 3 still fails, by 13 more runs: metric 'deepest' is beyond its limit: it "
+        "reached 3.2001 m\n"
         "    jarol run" +
         dive + " --set tasks.depth.parameters.kp=0.7824415042641448 --seed 0 --for 20s --record run_3_mild.mcap\n" +
         "  results     " + (folder / "12") + "\n"));
@@ -137,7 +138,7 @@ TEST_SUITE("tools/commands/campaign/report") {
     CHECK(three.output.ends_with(
         "  run 2 is refused: " + why + "\n    jarol run" + dive +
         " --set tasks.depth.parameters.kp=-0.13828408547883264 --seed 0 --for 20s --record run_2.mcap\n"
-        "  no run to make milder: all that are not good are refused\n  results     " +
+        "  no mildest values: all runs that are not good were refused\n  results     " +
         (folder / "3") + "\n"));
   }
 

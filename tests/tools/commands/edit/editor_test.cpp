@@ -1,5 +1,6 @@
 // jarol edit, as a page talks to it.
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 
@@ -114,6 +115,38 @@ TEST_SUITE("editor/editor") {
     CHECK(end["text"].get<std::string>().find("digest") != std::string::npos);
   }
 
+  TEST_CASE("a page that comes later gets no runs that have ended, and asks how the last one stands") {
+    Edited edited;
+    PageSocket page(edited.url());
+    page.send(json{{"do", "trial"}}.dump());  // there was none: no answer
+    page.send(json{{"do", "run"}, {"text", content("specs/counting.yaml")}, {"for", "1s"}}.dump());
+    json trial = json::object();
+    for (; trial.value("state", "") != "ended"; trial = page.read_with("trial")["trial"]) {}
+    CHECK(trial["exit_code"] == 0);
+    PageSocket later(edited.url());
+    CHECK(later.read()->contains("hello"));
+    later.send(R"({"do": "open"})");
+    CHECK(later.read()->contains("opened"));
+    later.send(R"({"do": "trial"})");
+    CHECK(later.read()->at("trial") == trial);
+  }
+
+  TEST_CASE("where a FIFO takes the file's place, who saves learns that, and the editor goes on") {
+    Edited edited;
+    PageSocket page(edited.url());
+    page.send(R"({"do": "open"})");
+    const json opened = page.read_with("opened")["opened"];
+    std::filesystem::remove(edited.file());
+    REQUIRE(mkfifo(edited.file().c_str(), 0600) == 0);
+    const json save{{"do", "save"}, {"text", opened["text"]}, {"over", opened["hash"]}};
+    CHECK(ask(page, save, "unsaved") == json{{"why", "can't write '" + edited.file() +
+                                                         "': there is no regular file any more; move away what is "
+                                                         "there"}}
+                                            .dump());
+    std::filesystem::remove(edited.file());
+    CHECK(ask(page, save, "conflict") == R"({"hash":"","text":""})");
+  }
+
   TEST_CASE("a run that can't begin is not announced, and ends none that is under way") {
     Edited edited;
     PageSocket page(edited.url());
@@ -152,7 +185,7 @@ TEST_SUITE("editor/editor") {
     Edited edited;
     PageSocket page(edited.url());
     CHECK(ask(page, {{"do", "fly"}}, "error") ==
-          R"("there is no 'fly' to do; there are: open, judge, save, run, stop")");
+          R"("there is no 'fly' to do; there are: open, judge, save, run, stop, trial")");
     CHECK(ask(page, {{"do", 1}}, "error") == R"("expected an object as in {\"do\": \"open\"}")");
     CHECK(ask(page, {{"do", "judge"}, {"id", -1}}, "error") == R"("'id' is no whole number")");
     CHECK(ask(page, {{"do", "judge"}, {"id", 1}, {"text", 1}}, "error") == R"("'text' is no text")");
@@ -182,6 +215,14 @@ TEST_SUITE("editor/editor") {
     const auto in = command::run_jarol("edit -");
     CHECK(in.exit_code == 2);
     CHECK(in.output == "error: '-' is stdin, which can't be written; name the graph's file\n");
+    const TemporaryFolder folder;
+    const std::string fifo = folder / "fifo";
+    REQUIRE(mkfifo(fifo.c_str(), 0600) == 0);
+    CHECK(command::run_jarol("edit " + fifo).output ==
+          "error: '" + fifo + "' is no regular file, which can't be saved; name the graph's file\n");
+    const auto profile = command::run_jarol("edit specs/counting.yaml --profile nope");
+    CHECK(profile.exit_code == 2);
+    CHECK(profile.output.find("error: there is no profile 'nope'; the graph has: ") != std::string::npos);
     CHECK(command::run_jarol("edit specs/counting.yaml --port 0").output ==
           "error: the console's port '0' is no number from 1 to 65535\n");
   }

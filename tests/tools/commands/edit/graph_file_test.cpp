@@ -74,6 +74,21 @@ TEST_SUITE("editor/graph_file") {
     CHECK(content(to) == "graph: b\n");
   }
 
+  TEST_CASE("a file with another name by a hard link keeps it, and is written over what was read alone") {
+    const TemporaryFolder folder;
+    const GraphFile file(folder.write("a.yaml", "graph: a_long_name\n"));
+    const std::string other = folder / "other.yaml";
+    std::filesystem::create_hard_link(file.path(), other);
+    const std::string opened = file.read().hash;
+    CHECK_FALSE(file.write("graph: b\n", opened));
+    CHECK(std::filesystem::hard_link_count(other) == 2);
+    CHECK(content(other) == "graph: b\n");
+    const auto conflict = file.write("graph: c\n", opened);
+    REQUIRE(conflict);
+    CHECK(conflict->text == "graph: b\n");
+    CHECK(content(other) == "graph: b\n");
+  }
+
   TEST_CASE("what is no text for a page is refused with its name") {
     const TemporaryFolder folder;
     const std::string bytes = folder.write("bytes.yaml", "graph: \xff\n");

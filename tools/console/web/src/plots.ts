@@ -37,6 +37,18 @@ export function defaultPlots(hello: Hello, store: Store, max = 6): PlotSpec[] {
     .map((signal) => ({ title: signal.name, lines: [{ signal, role: "other" }] }));
 }
 
+/** The same plots with the signals of another store, as it is made after a break; what it lacks is left out. */
+export function plotsOf(store: Store, plots: readonly PlotSpec[]): PlotSpec[] {
+  const found = plots.map(({ title, lines }) => ({
+    title,
+    lines: lines.flatMap(({ signal, role }) => {
+      const its = store.find(signal.name);
+      return its ? [{ signal: its, role }] : [];
+    }),
+  }));
+  return found.filter(({ lines }) => lines.length > 0);
+}
+
 /** Of an angle that is never more than half a turn, a turn is a jump: there is a gap in its line. */
 function isJump(unit: string, from: number, to: number): boolean {
   return unit === "rad" && Math.abs(to - from) > Math.PI * 1.5;

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { columnsOf, csvOf, defaultPlots, type Line } from "../src/plots.ts";
+import { columnsOf, csvOf, defaultPlots, plotsOf, type Line } from "../src/plots.ts";
 import type { Hello, Output } from "../src/protocol.ts";
 import { Store } from "../src/series.ts";
 
@@ -44,6 +44,16 @@ test("by default what is commanded is plotted against what is reached and true",
     plots.map((plot) => plot.lines.map(({ signal, role }) => `${signal.name} ${role}`)),
     [["from.depth commanded", "to.depth reached", "true dune.depth true"]],
   );
+});
+
+test("after a break the same is plotted of the values that come anew, but for what is not there any more", () => {
+  const before = new Store(outputs);
+  const plots = [
+    { title: "mine", lines: lines(before, "to.heading", "true dune.depth") },
+    { title: "gone", lines: lines(before, "true dune.depth") },
+  ];
+  const store = new Store(outputs.slice(0, 2));
+  assert.deepEqual(plotsOf(store, plots), [{ title: "mine", lines: lines(store, "to.heading") }]);
 });
 
 test("a graph without commands has its first numbers plotted", () => {

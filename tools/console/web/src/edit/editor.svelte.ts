@@ -105,6 +105,7 @@ export class Editor {
       this.hello = message.hello;
       document.title = `${message.hello.file} · Jarol`;
       this.open("compare");
+      this.ask({ do: "trial" });
     } else if ("opened" in message) this.opened(message.opened);
     else if ("verdict" in message) this.judged(message.verdict);
     else if ("drawn" in message) this.draw(message.drawn);
@@ -127,6 +128,8 @@ export class Editor {
       // nothing of here is lost
       if (this.isBehind && !this.isDirty && this.sent === undefined) this.open("compare");
     } else if ("trial" in message) {
+      // one that ended before this page came, or that it has seen end
+      if (message.trial.state === "ended" && (this.trial?.state ?? "ended") === "ended") return;
       this.trial = message.trial;
       if (message.trial.state === "running") this.trialPage = "";
       if (message.trial.state === "watched") {
