@@ -66,7 +66,7 @@ TEST_SUITE("tools/recorded_truth") {
       "what became of a vehicle stands in the recording, and a replay or a report of it is as bad as the run was") {
     const TemporaryFolder folder;
     const std::string file = folder / "crash.mcap";
-    const auto run = crash("--record " + file);
+    const auto run = crash("--record-checkpoints 5s --record " + file);
     CHECK(run.exit_code == 1);
     const std::string begin = "error: the vehicle of 'robostix' has ";
     REQUIRE(run.output.starts_with(begin + "crashed: a rotor met the ground, at 9."));
@@ -74,6 +74,12 @@ TEST_SUITE("tools/recorded_truth") {
     const auto replay = command::run_jarol("replay " + file, "2>&1 >/dev/null");
     CHECK(replay.exit_code == 1);
     CHECK(replay.output == run.output);
+    for (const std::string part : {" --only filter", " --set expect=nothing", " --from 12s"}) {
+      CAPTURE(part);
+      const auto same = command::run_jarol("replay " + file + part, "2>&1 >/dev/null");
+      CHECK(same.exit_code == 1);
+      CHECK(same.output == run.output);
+    }
     // with other gains nobody knows where it would have gone
     CHECK(command::run_jarol("replay " + file + " --set tasks.altitude.parameters.kp=0.1", "2>&1 >/dev/null").output ==
           "");

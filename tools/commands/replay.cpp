@@ -204,7 +204,9 @@ int replay(const ReplayOptions& options) {
   const bool is_other_text = !options.file.empty() && !is_text_of_run(options.file, log.recording());
   judge_no_other_truth(graph, comparison.evidence, is_other_text, verdict.expectations);
   verdict.left_out = find_left_out(graph, report);
-  const bool is_of_run = world == RecordedWorld::truth && comparison.evidence != Evidence::diverged;
+  // what is the same to the last value, in part too, is what that vehicle was flown by
+  const bool is_of_run = comparison.evidence == Evidence::same ||
+                         (world == RecordedWorld::truth && comparison.evidence != Evidence::diverged);
   if (is_of_run && !comparison.interrupted) verdict.mishaps = read_mishaps(log.recording());
   if (const auto rest = read_rest(log.recording());
       rest && !rest->reached && log.end() && is_of_run && !comparison.interrupted)
