@@ -32,7 +32,7 @@ class Typed final : public AnyDistributer {
 
   const messages::MessageSet& message_set() const override { return D::message_set(); }
   void receive(messages::MessageRef message) override {
-    if constexpr (detail::has_any_message<D>) distributer_.any_message();
+    if constexpr (detail::has_any_message<D>) distributer_.any_message(message);
     if constexpr (!D::is_vehicle) count_used();
     for (auto handler = find_handler(message.descriptor->id); handler->id == message.descriptor->id; ++handler) {
       if (handler->descriptor != message.descriptor) continue;

@@ -84,7 +84,8 @@ constexpr bool same_member() {
     return fits;                                                                                     \
   }();
 JAROL_HOOK(peer_changed, "()", d.peer_changed())
-JAROL_HOOK(any_message, "()", d.any_message())
+JAROL_HOOK(any_message, "(const messages::MessageRef& message)",
+           d.any_message(std::declval<const messages::MessageRef&>()))
 JAROL_HOOK(take_over, "()", d.take_over())
 JAROL_HOOK(ending, "()", d.ending())
 JAROL_HOOK(overrides_end, "() const", static_cast<bool>(std::as_const(d).overrides_end()))

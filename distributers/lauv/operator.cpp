@@ -24,14 +24,18 @@ bool LauvOperator::is_finite(double value) {
   return false;
 }
 
-void LauvOperator::any_message() {
-  if (has_commanded_) heard_ = now_;
+// Who commanded last is the operator, whoever else is heard.
+void LauvOperator::any_message(const messages::MessageRef& message) {
+  const auto* const header = static_cast<const imc::Header*>(message.header);
+  speaker_ = header == nullptr ? nobody : header->src;
+  if (has_commanded_ && (!commander_ || *commander_ == speaker_)) heard_ = now_;
 }
 
 void LauvOperator::peer_changed() { has_commanded_ = false; }
 
 void LauvOperator::note_command() {
   has_commanded_ = true;
+  commander_ = speaker_;
   heard_ = now_;
 }
 

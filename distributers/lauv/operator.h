@@ -108,7 +108,7 @@ class LauvOperator {
   explicit LauvOperator(const Param& parameters)
       : parameters_(parameters), origin_{parameters.latitude, parameters.longitude} {}
 
-  void any_message();
+  void any_message(const messages::MessageRef& message);
   void peer_changed();
   void reach(Duration instant, messages::Receiver& system);
   void announce(Duration instant, messages::Receiver& all);
@@ -211,6 +211,9 @@ class LauvOperator {
 
   std::optional<Duration> aborted_;
   Duration heard_{};
+  static constexpr std::uint16_t nobody = 0xffff;
+  std::uint16_t speaker_ = nobody;          // id of who has sent the message at hand
+  std::optional<std::uint16_t> commander_;  // and the last command
   bool has_commanded_ = true;  // who has the link now; else the vehicle goes by what another one has commanded
   std::uint32_t stops_ = 0;    // demanded by the operator
   tasks::Alarm alarm_ = tasks::Alarm::none;

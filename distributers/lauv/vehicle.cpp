@@ -19,6 +19,8 @@ namespace {
 constexpr Duration ask_period = std::chrono::seconds(1);
 // DUNE says it each second
 constexpr Duration state_patience = std::chrono::seconds(5);
+// DUNE says each second which of its loops are on; a plant of it that has none never does
+constexpr Duration state_period = std::chrono::seconds(2);
 constexpr double flat_earth = 100e3;  // m from the origin, as far as plans go
 
 // what a device does not measure it writes as no number beside what it does
@@ -61,6 +63,7 @@ bool LauvVehicle::is(const LauvInstrument& instrument, const messages::MessageRe
   if (!instrument.fitted) return false;
   const std::uint8_t sender = Entities::sender_of(from);
   if (sender == Entities::nobody) return true;
+  if (!met_) met_ = reached_;
   if (instrument.entity.view() != "*" && !entities_.has_label(sender)) label_lacks_ = true;
   return entities_.is(sender, instrument.entity.view());
 }
@@ -96,6 +99,8 @@ void LauvVehicle::peer_changed() {
   entities_.forget();
   leaks_ = {};
   steers_itself_.reset();
+  met_.reset();
+  has_said_ = false;
 }
 
 bool LauvVehicle::all_finite(std::initializer_list<double> values) {
@@ -258,9 +263,21 @@ void LauvVehicle::vehicle_state(const imc::VehicleState& m) {
   using Loops = imc::CLoopsMask;
   const bool own_loops = (m.control_loops & ~(Loops::EXTERNAL | Loops::NO_OVERRIDE)) != 0;
   steers_itself_ = own_loops ? std::optional(reached_) : std::nullopt;
+  has_said_ = true;
 }
 
-bool LauvVehicle::steers_itself() const { return steers_itself_ && reached_ - *steers_itself_ < state_patience; }
+// What goes on is known at once; what is off the next VehicleState says, as others may be on.
+void LauvVehicle::control_loops(const imc::ControlLoops& m) {
+  using Loops = imc::CLoopsMask;
+  if (m.enable != imc::ControlLoops::Enable::ENABLE || (m.mask & ~(Loops::EXTERNAL | Loops::NO_OVERRIDE)) == 0) return;
+  steers_itself_ = reached_;
+  has_said_ = true;
+}
+
+bool LauvVehicle::steers_itself() const {
+  if (steers_itself_) return reached_ - *steers_itself_ < state_patience;
+  return met_ && !has_said_ && reached_ - *met_ < state_period;
+}
 
 void LauvVehicle::send_actuation(const tasks::Actuation& actuation, messages::Receiver& system) {
   if (steers_itself()) return;

@@ -100,7 +100,7 @@ class LauvVehicle {
                   on<imc::Current>(&V::current), on<imc::EntityInfo>(&V::entity_info),
                   on<imc::EntityList>(&V::entity_list), on<imc::LblConfig>(&V::beacons), on<imc::LblRange>(&V::range),
                   on<imc::ServoPosition>(&V::servo), on<imc::VehicleState>(&V::vehicle_state),
-                  send<&Out::actuation>(&V::send_actuation));
+                  on<imc::ControlLoops>(&V::control_loops), send<&Out::actuation>(&V::send_actuation));
   }
 
   explicit LauvVehicle(const Param& parameters);
@@ -114,7 +114,8 @@ class LauvVehicle {
   std::uint64_t non_finite_inputs() const { return non_finite_inputs_; }
   /// Without what concerns a link to elsewhere.
   void serialize(Archive& archive) {
-    archive(entities_, leaks_, label_lacks_, asked_, non_finite_inputs_, beacons_, sent_, reached_, steers_itself_);
+    archive(entities_, leaks_, label_lacks_, asked_, non_finite_inputs_, beacons_, sent_, reached_, steers_itself_,
+            met_, has_said_);
   }
 
   In in;
@@ -142,6 +143,7 @@ class LauvVehicle {
   void range(const imc::LblRange& m, const messages::MessageRef& from);
   void servo(const imc::ServoPosition& m, const messages::MessageRef& from);
   void vehicle_state(const imc::VehicleState& m);
+  void control_loops(const imc::ControlLoops& m);
   void send_actuation(const tasks::Actuation& actuation, messages::Receiver& system);
 
   void place(double latitude, double longitude);
@@ -152,7 +154,7 @@ class LauvVehicle {
   void note(tasks::VectorReading tasks::Instruments::*reading, const LauvInstrument& instrument,
             const messages::MessageRef& from, double x, double y, double z);
   bool is(const LauvInstrument& instrument, const messages::MessageRef& from);
-  bool steers_itself() const;
+  bool steers_itself() const;                             // or may, as it has not said yet
   bool all_finite(std::initializer_list<double> values);  // else that is counted
 
   // An entity that may be a leak detector.
@@ -179,6 +181,8 @@ class LauvVehicle {
   tasks::Actuation sent_{};
   Duration reached_{};                     // instant
   std::optional<Duration> steers_itself_;  // when it last said so
+  std::optional<Duration> met_;            // when an entity of its own was first heard
+  bool has_said_ = false;                  // which loops are on
   std::string address_;
   messages::imc::AnnounceTimer announce_timer_;
 };

@@ -47,7 +47,7 @@ class Sonde {
     if (scale_ == 0) throw std::invalid_argument("a scale of 0 shows nothing");
   }
 
-  void any_message() { ++count_; }
+  void any_message(const messages::MessageRef&) { ++count_; }
   In in;
   int answers = 0;
 

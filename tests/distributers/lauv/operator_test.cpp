@@ -144,6 +144,32 @@ TEST_SUITE("distributers/lauv_operator") {
     }
   }
 
+  TEST_CASE("of two that share a link the one that commanded last is the operator: the other's words are no contact") {
+    Conversation c;
+    const auto say_as = [&](std::uint16_t who, const auto& message) {
+      const imc::Header from{.src = who};
+      messages::MessageRef said = messages::refer_to(message);
+      said.header = &from;
+      c.adapter.receive(said);
+    };
+    const imc::DesiredSpeed speed{1, imc::SpeedUnits::METERS_PS};
+    c.pass(1s);
+    say_as(0x4002, imc::Heartbeat{});  // before anybody has commanded, each counts
+    CHECK(c.silence() == 0);
+    say_as(0x4001, speed);
+    c.pass(3s);
+    say_as(0x4002, imc::Heartbeat{});
+    CHECK(c.silence() == 3);
+    say_as(0x4001, imc::Heartbeat{});
+    CHECK(c.silence() == 0);
+    c.pass(1s);
+    say_as(0x4002, speed);
+    CHECK(c.silence() == 0);
+    c.pass(2s);
+    say_as(0x4001, imc::Heartbeat{});
+    CHECK(c.silence() == 2);
+  }
+
   TEST_CASE("a report becomes an EstimatedState, until the whole motion is reported") {
     Conversation c;
     c.report({.depth = 3, .pitch = 0.5, .heading = 1, .speed = 2});

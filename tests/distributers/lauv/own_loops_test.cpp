@@ -56,6 +56,54 @@ TEST_SUITE("distributers/lauv_vehicle/own_loops") {
     }
   }
 
+  TEST_CASE("one with entities, as a DUNE, is not steered before it has said whether it steers itself, or for 2 s") {
+    using std::chrono::milliseconds;
+    const auto sent_at = [](Typed<LauvVehicle>& adapter, Duration instant) {
+      Counted counted, nobody;
+      adapter.reach(instant, nobody);
+      adapter.hand_over<&LauvVehicle::Out::actuation>({0.5, {}}, counted);
+      return counted.sent;
+    };
+    const auto heard = [](Typed<LauvVehicle>& adapter, std::uint8_t entity) {
+      const imc::Header from{.src = 0xD1, .src_ent = entity};
+      const imc::Depth depth{1};
+      messages::MessageRef message = messages::refer_to(depth);
+      message.header = &from;
+      adapter.receive(message);
+    };
+    Typed<LauvVehicle> silent, answering, plain;
+    CHECK(sent_at(silent, milliseconds(500)) == 5);
+    heard(silent, 30);
+    CHECK(sent_at(silent, milliseconds(600)) == 0);
+    heard(silent, 30);
+    CHECK(sent_at(silent, milliseconds(2499)) == 0);
+    CHECK(sent_at(silent, milliseconds(2500)) == 5);
+
+    heard(answering, 30);
+    CHECK(sent_at(answering, milliseconds(600)) == 0);
+    CHECK(sent_by(answering, 0) == 5);
+
+    heard(plain, 255);
+    CHECK(sent_at(plain, milliseconds(600)) == 5);
+  }
+
+  TEST_CASE("loops that it switches on by ControlLoops are on at once, and off when its state says so") {
+    using Loops = imc::CLoopsMask;
+    Typed<LauvVehicle> adapter;
+    const auto sent_after = [&](std::uint8_t enable, std::uint32_t mask) {
+      adapter.receive(messages::refer_to(imc::ControlLoops{enable, mask}));
+      Counted counted;
+      adapter.hand_over<&LauvVehicle::Out::actuation>({0.5, {}}, counted);
+      return counted.sent;
+    };
+    CHECK(sent_by(adapter, 0) == 5);
+    CHECK(sent_after(imc::ControlLoops::Enable::DISABLE, Loops::DEPTH) == 5);
+    CHECK(sent_after(imc::ControlLoops::Enable::ENABLE, Loops::EXTERNAL | Loops::NO_OVERRIDE) == 5);
+    CHECK(sent_after(imc::ControlLoops::Enable::ENABLE, Loops::DEPTH) == 0);
+    CHECK(sent_after(imc::ControlLoops::Enable::DISABLE, Loops::DEPTH) == 0);
+    CHECK(sent_by(adapter, 0) == 5);
+  }
+
   TEST_CASE("its fins go meanwhile where it wants them: none of them sticks") {
     Typed<LauvVehicle> adapter;
     const auto sent_of = [&](std::uint32_t loops) {
