@@ -27,7 +27,7 @@ using namespace std::chrono_literals;
 namespace javiator = messages::javiator;
 using Bytes = std::vector<std::byte>;
 
-constexpr auto patience = 400ms;
+constexpr auto short_patience = 400ms;
 
 Bytes frame(FrameKind kind, const Bytes& content = {}) {
   Bytes bytes;
@@ -88,7 +88,7 @@ void say(const Descriptor& to, const Bytes& bytes) {
 std::string said_with(const Address& address, std::optional<SecretKey> key = {}) {
   try {
     LockstepSystem channels(address, 0, std::make_unique<Typed<JaviatorVehicle>>(),
-                            [](Duration) { return std::string(); }, {.key = key, .patience = patience});
+                            [](Duration) { return std::string(); }, {.key = key, .patience = short_patience});
     channels.begin();
     channels.reach(Duration{});
   } catch (const FrameError& error) {
@@ -112,7 +112,7 @@ class EmptyBox : public vehicles::Vehicle {
 
 // A vehicle's process; what it says of its runners.
 struct Server {
-  explicit Server(std::optional<SecretKey> key = {}, std::chrono::milliseconds patience = ::patience) {
+  explicit Server(std::optional<SecretKey> key = {}, std::chrono::milliseconds patience = short_patience) {
     thread = std::thread([this, key, patience] {
       LockstepService service{.set = javiator::message_set(),
                               .make = [](std::uint64_t) { return std::make_unique<EmptyBox>(); },
@@ -234,7 +234,7 @@ TEST_SUITE("distributers/links/lockstep_patience") {
     const Runner first(server.address);
     first.begin();
     say(first.socket, frame(FrameKind::sense));
-    std::this_thread::sleep_for(2 * patience);
+    std::this_thread::sleep_for(2 * short_patience);
     for (int i = 0; i < 50 && said_with(server.address) != ""; ++i) std::this_thread::sleep_for(100ms);
     CHECK(server.says(first.name + " has been silent for 400ms and makes room for another"));
     CHECK(said_with(server.address) == "");
@@ -300,7 +300,7 @@ TEST_SUITE("distributers/links/lockstep_patience") {
     std::string said;
     try {
       LockstepSystem channels(address, 0, std::make_unique<Typed<JaviatorVehicle>>(),
-                              [](Duration) { return std::string(); }, {.key = key_of(1), .patience = patience});
+                              [](Duration) { return std::string(); }, {.key = key_of(1), .patience = short_patience});
       channels.begin();
       for (int i = 0; i < 100; ++i) channels.reach(i * 5ms);
     } catch (const FrameError& error) { said = error.what(); }
