@@ -94,6 +94,7 @@ TEST_SUITE("distributers/links/several_peers") {
     REQUIRE(wait_for([&] { return two.count("packets in") == 3; }));
     int sent = 0;
     CHECK(wait_for([&] { return two.send(sent++), two.count("closed ports") == 1; }));
+    CHECK(wait_for([&] { return two.count("packets out") == static_cast<std::uint64_t>(sent); }));
     two.hear(stays, 4);
     CHECK(two.number_of_last() == 1);
     const Speaker again = two.speaker();
