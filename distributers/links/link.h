@@ -30,7 +30,8 @@ class Link {
   /// Gives the receiver the packets that have arrived, oldest first; no more than the port holds, however fast others
   /// come. Throws std::runtime_error with the cause once the transport has thrown where it receives or sends.
   void receive(messages::Receiver& receiver);
-  /// Who sent the packet that was given last: datagrams' peers are numbered from 1; 0: it came in a stream.
+  /// Who sent the packet that was given last: datagrams' peers are numbered from 1, several at once have one number; 0:
+  /// it came in a stream.
   std::uint32_t peer() const { return entries_.peer(); }
 
   /// The packet that `send` would make of a message now.
