@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/math/euler_angles.h"
 #include "graph/math/geometry.h"
 #include "tasks/add_task.h"
 
 namespace jarol::tasks {
 namespace {
-
-constexpr double gravity = 9.81;
 
 // It leans as far as its altitude has room for: the ground carries a part of it by one foot.
 bool stands_on_foot(const AltitudeControl::Param& p, const FlightEstimate& e) {
@@ -123,7 +122,7 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   const double error = state.z.place - e.altitude;
   state.sunk = limited(state.sunk + p.ki * error * dt, 1);
   const double a = state.z.demand + p.kp * error + p.kd * (state.z.speed - e.climb) + state.sunk;
-  const double upright = std::max(std::cos(e.roll) * std::cos(e.pitch), 0.5);
+  const double upright = std::max(down_in_body(e.roll, e.pitch)[2], 0.5);
   thrust = std::clamp(state.trim + (1 + a / gravity) / upright - 1 - state.blind_cut, touches ? 0.0 : 0.1, 2.0);
   state.expected += (thrust - state.trim - state.expected) * dt / (p.lift_lag + dt);
   // it feels more than the rotors give, or is still: the ground carries

@@ -14,8 +14,6 @@ using Eigen::Vector2d;
 using Matrix = Eigen::Matrix<double, 5, 5>;
 using Vector = Eigen::Matrix<double, 5, 1>;
 
-constexpr double gravity = 9.81;
-
 Eigen::Map<Matrix> covariance_of(LeanGuess& guess) { return Eigen::Map<Matrix>(guess.covariance.data()); }
 
 // What is known when an IMU falls silent, or has reported the same for a while. A ray is as long for a lean towards its

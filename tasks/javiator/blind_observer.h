@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "graph/math/geometry.h"
 #include "graph/task.h"
 #include "tasks/values/javiator.h"
 
@@ -100,7 +101,7 @@ struct BlindObserver {
     TurnDemand felt{}, last{};
     double mean_yaw = 0, p = 0, q = 0, heading = 0, yaw = 0, yaw_rate = 0;
     bool turns = false, is_blind = false;
-    double mean_thrust = 1, last_thrust = 1, felt_thrust = 1, lift = 9.81;
+    double mean_thrust = 1, last_thrust = 1, felt_thrust = 1, lift = gravity;
     static constexpr auto fields() {
       using S = State;
       return describe(field<&S::x>(), field<&S::y>(), field<&S::felt>("", "demand, by now"),

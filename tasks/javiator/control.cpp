@@ -10,8 +10,6 @@
 namespace jarol::tasks {
 namespace {
 
-constexpr double gravity = 9.81;
-
 struct Held {
   double place, speed, drag;
 };

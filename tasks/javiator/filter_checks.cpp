@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/math/geometry.h"
+
 namespace jarol::tasks {
 namespace {
 
-constexpr double gravity = 9.81;
 constexpr double pascal_per_metre = 12.0;
 
 }  // namespace

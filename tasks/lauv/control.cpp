@@ -7,7 +7,6 @@
 #include "tasks/add_task.h"
 
 namespace jarol::tasks {
-namespace {}  // namespace
 
 void DepthControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const Motion& m = in.motion;
