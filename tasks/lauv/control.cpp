@@ -7,7 +7,6 @@
 #include "tasks/add_task.h"
 
 namespace jarol::tasks {
-namespace {}  // namespace
 
 void DepthControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const Motion& m = in.motion;
@@ -20,7 +19,8 @@ void DepthControl::run(const Param& p, const Tick& tick, const In& in, State& st
   const double theta = limited(wanted, p.limit);
   // learn the trim only close to the depth: on the way down it would wind up; and no more of it, as where it rests at
   // the surface, than what leaves the vehicle so close that it learns again
-  const double max = std::min(p.limit, 0.9 * p.kp * p.reach);
+  constexpr double within = 0.9;  // of the reach
+  const double max = std::min(p.limit, within * p.kp * p.reach);
   if (std::abs(error) < p.reach)
     state.pitch_trim = limited(state.pitch_trim - p.ki * error * seconds(tick.period), max);
   // the rate of the Euler angle, not of the body: they differ in a turn
