@@ -51,6 +51,11 @@ struct NotExecutable : SessionError {
   using SessionError::SessionError;
 };
 
+/// One that check has a negative verdict on, and that was not to be run by force.
+struct NotSchedulable : NotExecutable {
+  using NotExecutable::NotExecutable;
+};
+
 /// What can't be saved, or a checkpoint that is damaged or of something else.
 struct CheckpointRefused : SessionError {
   using SessionError::SessionError;

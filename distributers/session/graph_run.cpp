@@ -27,13 +27,11 @@ GraphRun::GraphRun(const PlannedGraph& of, RunStart start, const GraphRunOptions
     : GraphRun({}, of.graph(), of.plan(), std::move(start), options) {}
 
 GraphRun::GraphRun(Loaded&& loaded, const Graph& graph, PlanOfRun plan, RunStart start, const GraphRunOptions& options)
-    : loaded_(std::move(loaded)),
-      graph_(graph),
-      channels_(pointers_to(start.channels)),
-      sinks_(graph, options.sinks, options.measured, hand_on_period_of(options)),
+    : OwnedGraph(std::move(loaded)),
+      JoinedGraph(graph, pointers_to(start.channels), options.sinks, options.measured, hand_on_period_of(options)),
       executor_(std::move(plan), std::move(start.channels),
                 {.digest = true,
-                 .recorder = sinks_.recorder(),
+                 .recorder = sinks().recorder(),
                  .record_truth = true,
                  .record_all_truth = options.truth,
                  .measured = options.measured,
@@ -57,14 +55,14 @@ RunOrigin origin_of(const Loaded& loaded, const Overrides& overrides, std::uint6
 }
 
 Checkpoint GraphRun::checkpoint() {
-  sinks_.catch_up();
-  if (const std::string failure = sinks_.failure_of_conditions(); !failure.empty())
+  sinks().catch_up();
+  if (const std::string failure = sinks().failure_of_conditions(); !failure.empty())
     throw CheckpointError("the run can't be saved, as what is expected of it is no longer looked at: " + failure);
-  if (!sinks_.lost().empty())
-    throw CheckpointError("the run can't be saved, as not all that it published could be looked at: " + sinks_.lost());
+  if (!sinks().lost().empty())
+    throw CheckpointError("the run can't be saved, as not all that it published could be looked at: " + sinks().lost());
   Checkpoint made(origin_, executor_.now());
   made.save("run", executor_);
-  made.save("conditions", sinks_);
+  made.save("conditions", sinks());
   if (!times_.empty()) made.save("execution", times_);
   return made;
 }
@@ -75,23 +73,19 @@ void GraphRun::require_same_origin(const Checkpoint& checkpoint) const {
 }
 
 void GraphRun::restore(const Checkpoint& checkpoint) {
-  sinks_.catch_up();
+  sinks().catch_up();
   std::string times;
   checkpoint.restore("execution", times);
   if (times != times_)
     throw CheckpointError(times.empty() ? "is of a run without --execution"
                                         : "is of a run with other execution times: --execution " + first_line(times));
-  if (!checkpoint.restore("run", executor_) || !checkpoint.restore("conditions", sinks_))
+  if (!checkpoint.restore("run", executor_) || !checkpoint.restore("conditions", sinks()))
     throw CheckpointError("is damaged: a part of it is missing");
-}
-
-RunVerdict GraphRun::judge(Duration until, const RunEnd& end) const {
-  return judge_run(graph(), executor_.report(), channels_, sinks_, executor_.rest(), until, end);
 }
 
 std::vector<Verdict> GraphRun::measure(Duration until) const {
   const Report& report = executor_.report();
-  return sinks_.measure(std::min(until, report.covered), why_cut_short(report.simulated, until, {}));
+  return sinks().measure(std::min(until, report.covered), why_cut_short(report.simulated, until, {}));
 }
 
 }  // namespace jarol

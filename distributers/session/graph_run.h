@@ -1,15 +1,14 @@
-// A loaded graph while it runs: its executor, who looks on, its links, and the verdict on it.
+// A loaded graph while it runs as exotasks: joined to its world, and its executor.
 #pragma once
 
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "distributers/session/linked.h"
+#include "distributers/session/joined_graph.h"
 #include "distributers/session/planned_graph.h"
-#include "distributers/session/run_sinks.h"
-#include "distributers/session/verdict.h"
 #include "runtime/checkpoint/checkpoint.h"
 #include "runtime/execute/executor.h"
 
@@ -33,26 +32,29 @@ struct GraphRunOptions {
   bool watched = false;  // the sinks show people what goes on: soon
 };
 
-class GraphRun {
+// What a run owns of its graph; before all that refers to it.
+class OwnedGraph {
+ protected:
+  explicit OwnedGraph(Loaded loaded) : loaded_(std::move(loaded)) {}
+  Loaded loaded_;  // empty: others run the graph too
+};
+
+class GraphRun : private OwnedGraph, public JoinedGraph {
  public:
   /// Links are not connected yet. All that the options name outlives it.
   GraphRun(Loaded loaded, const GraphRunOptions& options);
   /// One of many runs of that graph, which outlives it.
   GraphRun(const PlannedGraph& of, RunStart start, const GraphRunOptions& options);
+  ~GraphRun() override { unlink(); }
 
-  const Graph& graph() const { return graph_; }
-  const std::vector<ExternalSystem*>& channels() const { return channels_; }
   Executor& executor() { return executor_; }
   const Executor& executor() const { return executor_; }
-  RunSinks& sinks() { return sinks_; }
 
-  /// Before the first instant. Throws std::runtime_error if there is no way to an external system.
-  void connect(NoteSink note) { linked_.emplace(channels_, std::move(note)); }
-  /// After the last one.
-  void disconnect() { linked_->finish(); }
-  /// The same after a run that was attended: waits no longer than for anything else, and notes there what hangs.
-  void disconnect(RunEnd& end) { finish_links(*linked_, graph_, end); }
-  std::vector<LinkReport> link_reports() const { return linked_->reports(); }
+  const RunState& state() const override { return executor_.state(); }
+  const Report& report() const override { return executor_.report(); }
+  const std::vector<FailsafeReport>& failsafe() const override { return executor_.failsafe(); }
+  std::optional<RestReport> rest() const override { return executor_.rest(); }
+  Duration now() const override { return executor_.now(); }
 
   /// Before it is saved or goes on from what was: what it is made of.
   void set_origin(RunOrigin origin) { origin_ = std::make_shared<const RunOrigin>(std::move(origin)); }
@@ -65,23 +67,13 @@ class GraphRun {
   /// then.
   void restore(const Checkpoint& checkpoint);
 
-  /// After the last instant: who looks on has got all, but for sinks that have failed: throws what these threw.
-  void close_sinks() { show_mishaps_and_close(sinks_, graph_, channels_, executor_.report(), executor_.rest()); }
-
-  /// Of a run that was to go on `until` and ended like that.
-  RunVerdict judge(Duration until, const RunEnd& end) const;
-  /// What was measured of it, likewise; it was to go on until then, whenever its mission ends.
+  /// What was measured of it; it was to go on until then, whenever its mission ends.
   std::vector<Verdict> measure(Duration until) const;
 
  private:
   GraphRun(Loaded&& loaded, const Graph& graph, PlanOfRun plan, RunStart start, const GraphRunOptions& options);
 
-  Loaded loaded_;  // empty: others run the graph too
-  const Graph& graph_;
-  std::vector<ExternalSystem*> channels_;
-  RunSinks sinks_;
   Executor executor_;
-  std::optional<Linked> linked_;
   std::shared_ptr<const RunOrigin> origin_;
   std::string times_;  // of its schedule; empty: there is none
 };

@@ -29,7 +29,7 @@ bool has_deep_input(const Graph& graph) {
 
 }  // namespace
 
-void require_executed(const std::string& name, const Graph& graph, const RealTimeWords& words) {
+void require_executed(const std::string& name, const Graph& graph, const RunWords& words) {
   const Policy& policy = analysis::policy_of(graph.platform);
   if (!policy.executed)
     throw NotExecutable("'" + name + "' has the policy '" + std::string(policy.name) + "'; the real clock executes " +
@@ -37,7 +37,7 @@ void require_executed(const std::string& name, const Graph& graph, const RealTim
 }
 
 std::vector<analysis::TaskThread> threads_for(const std::string& name, const Graph& graph, RealTimeOptions& options,
-                                              const RealTimeWords& words) {
+                                              const RunWords& words) {
   require_executed(name, graph, words);
   const bool by_priority = analysis::policy_of(graph.platform).urgency == Urgency::priority;
   // a value of changing size goes from task to task by one thread alone
@@ -89,6 +89,28 @@ CheckFindings find_against(const Graph& graph) {
                        "' may break a limit, by upper bounds: " + list_of(broken);
   }
   return found;
+}
+
+void require_executable(const std::string& name, const Graph& graph, bool force, const NoteSink& note,
+                        const RunWords& words) {
+  require_executed(name, graph, words);
+  const CheckFindings found = find_against(graph);
+  if (!found.against.empty() && !force)
+    throw NotSchedulable("'" + name + "' " + found.against + "; 'jarol check' says more, " + words.force +
+                         " runs it all the same");
+  if (!found.against.empty()) note("run by force: '" + name + "' " + found.against);
+  if (!found.unknown.empty()) note("whether this graph can be scheduled is not known: " + found.unknown);
+}
+
+void take_priority(std::optional<int> priority) {
+  if (!priority) return;
+  sched_param parameter{};
+  parameter.sched_priority = *priority;
+  sched_setscheduler(0, SCHED_FIFO, &parameter);
+}
+
+void take_priority_above(std::optional<int> priority) {
+  if (priority) take_priority(std::min(*priority + 1, sched_get_priority_max(SCHED_FIFO)));
 }
 
 }  // namespace jarol

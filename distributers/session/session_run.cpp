@@ -70,11 +70,7 @@ Session::Run::~Run() {
 void Session::Run::make_clock(const std::string& name, const Loaded& loaded, const SessionOptions& options) {
   if (options.workers > 1) throw NotExecutable("workers belong to the virtual clock; the real one goes by 'platform'");
   const Graph& graph = *loaded.graph;
-  require_executed(name, graph);
-  const CheckFindings found = find_against(graph);
-  if (!found.against.empty() && !options.force)
-    throw NotExecutable("'" + name + "' " + found.against + "; 'jarol check' says more, .force runs it all the same");
-  if (!found.unknown.empty()) note_("whether this graph can be scheduled is not known: " + found.unknown);
+  require_executable(name, graph, options.force, note_);
   RealTimeOptions real_time = options.real_time;
   threads_ = threads_for(name, graph, real_time);
   clock_.emplace(graph.tasks.size(), real_time);

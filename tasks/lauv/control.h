@@ -22,6 +22,8 @@ namespace jarol::tasks {
 ///   moment  = pitch_kp (theta_d - theta) - pitch_kd theta_dot,              |moment| <= fin_limit
 ///   theta_dot = q cos(phi) - r sin(phi)
 /// The integral is this project's: DUNE has none set for its simulator, and stays 5 cm above a depth of 3 m there.
+/// Driven astern by a propeller that does not obey (u < -0.25 m/s) nothing steers: moment = fin_limit, see
+/// vehicles/README.md.
 struct DepthControl {
   static constexpr std::string_view summary = "holds a commanded depth with the stern planes";
   struct Param {

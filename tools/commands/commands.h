@@ -9,14 +9,14 @@
 #include "tools/report/exit_code.h"
 
 namespace jarol {
+class Pace;
 struct Loaded;
-}
+}  // namespace jarol
 
 namespace jarol::tools {
 
 class CommandLine;
-class Pace;
-struct RunOptions;
+struct RunArguments;
 namespace console {
 class View;
 }
@@ -35,7 +35,7 @@ void add_messages(CommandLine& line, int& exit_code);
 void add_new(CommandLine& line, int& exit_code);
 void add_replay(CommandLine& line, int& exit_code);
 /// Makes the page that shows a run (run/watch_run.h).
-using WatchRun = std::unique_ptr<console::View>(const RunOptions&, const Loaded&, Duration until, Pace*);
+using WatchRun = std::unique_ptr<console::View>(const RunArguments&, const Loaded&, Duration until, Pace*);
 void add_run(CommandLine& line, int& exit_code, WatchRun* watch);
 void add_schema(CommandLine& line, int& exit_code);
 void add_tasks(CommandLine& line, int& exit_code);

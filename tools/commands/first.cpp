@@ -9,7 +9,7 @@
 namespace jarol::tools {
 namespace {
 
-std::unique_ptr<console::View> watch_nothing(const RunOptions&, const Loaded&, Duration, Pace*) {
+std::unique_ptr<console::View> watch_nothing(const RunArguments&, const Loaded&, Duration, Pace*) {
   throw std::invalid_argument("the web pages of --console are not built yet; tools/build builds them");
 }
 

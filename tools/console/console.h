@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
+#include "distributers/session/pace.h"
 #include "tools/console/describe.h"
 #include "tools/console/desk.h"
 #include "tools/console/feed.h"
-#include "tools/console/pace.h"
 #include "tools/console/samples_json.h"
 #include "tools/console/server.h"
 #include "tools/console/view.h"

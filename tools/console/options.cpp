@@ -4,6 +4,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "distributers/session/pace.h"
 #include "tools/report/command_line.h"
 
 namespace jarol::tools {
@@ -30,6 +31,17 @@ void add_server_options(Command& command, ConsoleArguments& arguments) {
 void require_effect(const Command& command, const ConsoleArguments& arguments, bool virtual_clock) {
   if (!arguments.wanted()) command.refuse({"--console-listen"}, "belongs to --console; add that, or leave it out");
   if (!virtual_clock) command.refuse({"--pace"}, "belongs to the virtual clock; the real one has its own");
+}
+
+std::optional<double> parse_pace(const std::string& text) {
+  if (text == "max") return std::nullopt;
+  double speed = 0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, speed);
+  if (read.ec != std::errc() || read.ptr != end || !(speed >= Pace::min && speed <= Pace::max))
+    throw std::invalid_argument("--pace: '" + text +
+                                "' is no number from 0.001 to 1000, nor max; write it as in 1, 0.1 or 10");
+  return speed;
 }
 
 console::ServerOptions server_of(const ConsoleArguments& arguments) {

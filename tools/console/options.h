@@ -25,6 +25,9 @@ void add_server_options(Command& command, ConsoleArguments& arguments);
 /// Refuses those that would have no effect. Throws std::invalid_argument.
 void require_effect(const Command& command, const ConsoleArguments& arguments, bool virtual_clock);
 
+/// What --pace says, as in 1, 0.1, 10 or max. Throws std::invalid_argument.
+std::optional<double> parse_pace(const std::string& text);
+
 console::ServerOptions server_of(const ConsoleArguments& arguments);
 
 /// A line that says where the page is, on stderr, at once; where it is served on all addresses another one.

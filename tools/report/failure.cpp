@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "distributers/links/frames.h"
+#include "distributers/session/errors.h"
 #include "graph/text/escape.h"
 #include "tools/report/exit_code.h"
 #include "tools/report/json_line.h"
@@ -69,6 +70,8 @@ Failure failure_of(const std::exception_ptr& error, const std::string& file) {
     const std::string begin = wrong.more.empty() ? "error: " : "";
     return {exit_input, {{{}, wrong.what(), {}}}, begin + printable(wrong.what()) + "\n" + wrong.more};
   } catch (const NegativeVerdict& negative) {
+    failure = of_one(exit_negative, negative.what());
+  } catch (const NotSchedulable& negative) {
     failure = of_one(exit_negative, negative.what());
   } catch (const Unfinished& refused) {
     failure = of_one(exit_unfinished, refused.what());

@@ -1,7 +1,5 @@
 #include "tools/report/run_end.h"
 
-#include <sched.h>
-
 #include <algorithm>
 #include <csignal>
 #include <nlohmann/json.hpp>
@@ -11,14 +9,6 @@
 #include "tools/report/exit_code.h"
 
 namespace jarol::tools {
-
-void take_priority_above(std::optional<int> priority) {
-  if (!priority) return;
-  sched_param parameter{};
-  parameter.sched_priority = std::min(*priority + 1, sched_get_priority_max(SCHED_FIFO));
-  // where it is refused, it is so for the thread that keeps the time, which says it
-  sched_setscheduler(0, SCHED_FIFO, &parameter);
-}
 
 void halt_if_asked(const RunEnd& end) {
   if (end.ending.signal != SIGTSTP) return;

@@ -2,15 +2,11 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 
 #include "runtime/execute/attend.h"
 
 namespace jarol::tools {
-
-/// The thread that attends goes before the one that it attends.
-void take_priority_above(std::optional<int> priority);
 
 /// Ctrl-Z has ended the run, all is safe: halts the process as Ctrl-Z does. Nothing if it was something else.
 void halt_if_asked(const RunEnd& end);

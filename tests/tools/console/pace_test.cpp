@@ -1,5 +1,5 @@
 // A run on the virtual clock beside the wall clock: halted, stepped, and the same whatever its pace.
-#include "tools/console/pace.h"
+#include "distributers/session/pace.h"
 
 #include <doctest/doctest.h>
 
@@ -7,11 +7,11 @@
 
 #include "tools/commands/run/load_graph.h"
 #include "tools/console/console.h"
+#include "tools/console/options.h"
 
 namespace {
 using namespace jarol;
 using namespace std::chrono_literals;
-using tools::Pace;
 using tools::parse_pace;
 using tools::console::obey;
 

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "distributers/session/logged_texts.h"
 #include "tests/graph/graph_of.h"
 #include "tests/tools/run_command.h"
-#include "tools/report/logged_texts.h"
 
 namespace {
 std::string graph_in(const command::TemporaryFolder& folder) {
@@ -64,7 +64,7 @@ TEST_SUITE("tools/report/logged_texts") {
     registry.add(jarol::task_class<Speaks>());
     const jarol::Graph graph = jarol::tests::graph_of(
         registry, "graph: t\ntasks: {a: {type: Speaks, period: 1ms}, b: {type: Speaks, period: 1ms}}\n");
-    jarol::tools::LoggedTexts texts(graph);
+    jarol::LoggedTexts texts(graph);
     const auto say = [&](int instant, std::uint32_t output, const char* text) {
       const jarol::String said{std::string_view(text)};
       texts.take(std::chrono::milliseconds(instant), output, &said);

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "distributers/session/status_events.h"
 #include "tasks/values/lauv.h"
 #include "tests/tools/run_command.h"
-#include "tools/report/status_events.h"
 
 namespace {
 using namespace jarol;
@@ -43,7 +43,7 @@ struct Reported {
   }
   DistributerClass its;
   Graph graph = operator_graph(its);
-  tools::StatusEvents changes{graph};
+  StatusEvents changes{graph};
 };
 
 #ifdef JAROL_VEHICLES

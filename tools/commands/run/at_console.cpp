@@ -14,7 +14,7 @@ std::vector<console::DeskOperator> operators_at_console(const Loaded& loaded) {
   return operators;
 }
 
-void require_console(const RunOptions& options, const Loaded& loaded) {
+void require_console(const RunArguments& options, const Loaded& loaded) {
   const auto operators = operators_at_console(loaded);
   if (!operators.empty() && !options.console.wanted())
     throw std::invalid_argument("distributer '" + operators.front().name +

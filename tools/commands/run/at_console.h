@@ -13,6 +13,6 @@ namespace jarol::tools {
 std::vector<console::DeskOperator> operators_at_console(const Loaded& loaded);
 
 /// Throws std::invalid_argument where there are any, and no console.
-void require_console(const RunOptions& options, const Loaded& loaded);
+void require_console(const RunArguments& options, const Loaded& loaded);
 
 }  // namespace jarol::tools

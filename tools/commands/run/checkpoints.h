@@ -1,14 +1,12 @@
-// Runs that are saved, and that go on from what was saved.
+// The options of runs that are saved, and that go on from what was saved.
 #pragma once
 
-#include <functional>
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "distributers/session/graph_run.h"
-#include "runtime/execute/executor_run.h"
-#include "tools/console/pace.h"
-#include "tools/report/noted.h"
+#include "graph/language/load.h"
+#include "runtime/checkpoint/checkpoint.h"
 
 namespace jarol::tools {
 
@@ -34,55 +32,5 @@ std::vector<Save> parse_saves(const std::vector<std::string>& words);
 
 /// What a run goes on from; its profile, what it set, but for plugins, and its seed come before what is given here.
 Checkpoint read_checkpoint(const std::string& file, Overrides& overrides, std::uint64_t& seed);
-
-/// Where a run is saved on its way, and what becomes of that.
-struct Stop {
-  std::string option;  // that asks for it
-  Duration at{};
-  std::function<void(Checkpoint)> take;  // may throw
-  std::string lost;                      // what there is not if the run does not come there: "'FILE' is not written"
-};
-
-/// A run on the virtual clock that is saved on its way, at some pace.
-class SavedRun : public ExecutorRun {
- public:
-  /// `pace`: null: as fast as possible.
-  SavedRun(GraphRun& run, Noted& noted, Duration end, Pace* pace = nullptr)
-      : ExecutorRun(run.executor(), end), run_(run), noted_(noted), end_(end), pace_(pace) {}
-
-  /// Before it runs.
-  void add(Stop stop);
-  /// Besides, before it runs: at each multiple of `every` it is taken.
-  void take_each(Duration every, std::function<void(const Checkpoint&)> take) {
-    every_ = every;
-    take_each_ = std::move(take);
-  }
-  /// Throws std::invalid_argument where the run can't be saved, or does not come there.
-  void require_saveable(Duration begin, Duration end);
-  void cover() override;
-  void close(const Ending& ending, Futex::Time patience) override;
-
-  /// What was lost, and why; empty: nothing.
-  const std::string& lost() const { return lost_; }
-
- private:
-  void cover_until(Duration end);
-  void cover_to(Duration instant);
-  void add_lost(const std::string& text);
-
-  GraphRun& run_;
-  Noted& noted_;
-  const Duration end_;
-  Pace* const pace_;
-  std::vector<Stop> stops_;                           // in order of time
-  std::function<void(const Checkpoint&)> take_each_;  // empty: none
-  Duration every_{}, next_{};                         // when
-  std::uint64_t taken_after_ = 0;                     // instants executed when the newest one was taken
-  std::string lost_;
-};
-
-Checkpoint checkpoint_of(GraphRun& run, Noted& noted);
-/// Throws CheckpointError with the file's name.
-void restore(GraphRun& run, Noted& noted, const Checkpoint& checkpoint, const std::string& file);
 
 }  // namespace jarol::tools

@@ -19,7 +19,7 @@ std::string text_of(const std::vector<Save>& saves) {
   return text;
 }
 
-nlohmann::ordered_json json_of(const RunOptions& options, const RunOutcome& outcome, const std::vector<Save>& saves,
+nlohmann::ordered_json json_of(const RunArguments& options, const RunOutcome& outcome, const std::vector<Save>& saves,
                                const WhatIfs& what_ifs) {
   auto json = to_json(outcome);
   if (!options.execution.empty()) json["execution"] = options.execution;
@@ -32,7 +32,7 @@ nlohmann::ordered_json json_of(const RunOptions& options, const RunOutcome& outc
 
 }  // namespace
 
-void print(const RunOptions& options, const RunOutcome& outcome, const std::vector<Save>& saves,
+void print(const RunArguments& options, const RunOutcome& outcome, const std::vector<Save>& saves,
            const WhatIfs& what_ifs, bool written) {
   const Report& report = outcome.report;
   if (options.json) {

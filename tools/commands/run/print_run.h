@@ -10,7 +10,7 @@
 namespace jarol::tools {
 
 /// `written`: the files that were asked for are there.
-void print(const RunOptions& options, const RunOutcome& outcome, const std::vector<Save>& saves,
+void print(const RunArguments& options, const RunOutcome& outcome, const std::vector<Save>& saves,
            const WhatIfs& what_ifs, bool written);
 
 }  // namespace jarol::tools

@@ -1,19 +1,14 @@
 #include "tools/commands/run/real_time.h"
 
 #include <fmt/format.h>
-#include <sched.h>
-
 #include <algorithm>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <thread>
 
-#include "distributers/session/real_time.h"
 #include "graph/language/quantities.h"
 #include "tools/report/command_line.h"
 #include "tools/report/exit_code.h"
-#include "tools/report/failure.h"
 #include "tools/report/value_json.h"
 
 namespace jarol::tools {
@@ -41,8 +36,6 @@ void add_cpus(const std::string& part, const std::string& list, std::vector<int>
   }
 }
 
-const RealTimeWords real_time_words{"--rt-priority", "--cpus", "--set"};
-
 // The safe value as a graph has it: {signals: [0, 0, 0, 0], unlocked: false}.
 std::string value_text(const Communicator& out) {
   std::string text;
@@ -53,13 +46,15 @@ std::string value_text(const Communicator& out) {
 
 }  // namespace
 
-void take_priority(std::optional<int> priority) {
-  if (!priority) return;
-  sched_param parameter{};
-  parameter.sched_priority = *priority;
-  // where it is refused, it is so for the thread that keeps the time, which says it
-  sched_setscheduler(0, SCHED_FIFO, &parameter);
-}
+const RunWords run_words{.priority = "--rt-priority",
+                         .cpus = "--cpus",
+                         .set = "--set",
+                         .force = "--force",
+                         .workers = "--workers",
+                         .execution = "--execution",
+                         .checkpoints = "--record-checkpoints",
+                         .end = "--for 100s",
+                         .real_clock = "--clock real"};
 
 void add_real_time_options(Command& command, RealTimeArguments& arguments) {
   command
@@ -88,21 +83,6 @@ RealTimeOptions options_of(const RealTimeArguments& arguments) {
     at = comma == std::string::npos ? comma : comma + 1;
   }
   return options;
-}
-
-std::vector<analysis::TaskThread> threads_for(const std::string& file, const Graph& graph, RealTimeOptions& options) {
-  return jarol::threads_for(file, graph, options, real_time_words);
-}
-
-void require_executable(const std::string& file, const Graph& graph, const RealTimeArguments& arguments) {
-  require_executed(file, graph, real_time_words);
-  const CheckFindings found = find_against(graph);
-  if (!found.against.empty() && !arguments.force)
-    throw NegativeVerdict("'" + file + "' " + found.against +
-                          "; 'jarol check' says more, --force runs it all the same");
-  if (!found.against.empty()) std::cerr << "note: run by force: '" << file << "' " << found.against << "\n";
-  if (!found.unknown.empty())
-    std::cerr << "note: whether this graph can be scheduled is not known: " << found.unknown << "\n";
 }
 
 std::string to_text(const Graph& graph, const RealClock& clock) {

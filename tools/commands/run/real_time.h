@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "graph/analysis/threads.h"
+#include "distributers/session/run_words.h"
 #include "graph/model/graph.h"
 #include "runtime/execute/failsafe.h"
 #include "runtime/external_system.h"
@@ -31,18 +31,8 @@ void add_real_time_options(Command& command, RealTimeArguments& arguments);
 /// Throws std::invalid_argument for a bad list of CPUs.
 RealTimeOptions options_of(const RealTimeArguments& arguments);
 
-/// Gives the calling thread that priority under SCHED_FIFO, and those that it makes from now on, as the threads of
-/// links.
-void take_priority(std::optional<int> priority);
-
-/// The threads that run tasks, where it takes more than the one that keeps the time; completes the options for them.
-/// Throws std::invalid_argument where this machine has too few CPUs, or SCHED_FIFO too few priorities.
-std::vector<analysis::TaskThread> threads_for(const std::string& file, const Graph& graph, RealTimeOptions& options);
-
-/// Throws std::invalid_argument for a graph that can't be executed in real time, and unless forced NegativeVerdict for
-/// one of which check finds that it is not schedulable or breaks a chain's limit; says on stderr when check can't
-/// report. `file` is what the user called the graph.
-void require_executable(const std::string& file, const Graph& graph, const RealTimeArguments& arguments);
+/// How messages of runs name what the command line has.
+extern const RunWords run_words;
 
 /// How well the run kept to real time.
 std::string to_text(const Graph& graph, const RealClock& clock);

@@ -1,12 +1,7 @@
 #include "tools/commands/run/record_options.h"
 
-#include <gnu/libc-version.h>
-#include <sys/utsname.h>
-
-#include <iostream>
 #include <stdexcept>
 
-#include "distributers/session/recorded_truth.h"
 #include "graph/language/quantities.h"
 #include "graph/text/escape.h"
 #include "tools/report/command_line.h"
@@ -15,13 +10,6 @@
 
 namespace jarol::tools {
 namespace {
-
-std::string platform_text() {
-  utsname machine{};
-  if (::uname(&machine) != 0) return "";
-  return std::string(machine.sysname) + " " + machine.release + " " + machine.machine + ", glibc " +
-         gnu_get_libc_version();
-}
 
 mcap::Compression compression_of(const std::string& name) {
   if (name == "none") return mcap::Compression::none;
@@ -36,6 +24,14 @@ std::uint64_t split_of(const std::string& text) {
     throw std::invalid_argument("--record-split: '" + text + "' " + wrong);
   if (bytes < min) throw std::invalid_argument("--record-split: '" + text + "' is below 1MiB");
   return static_cast<std::uint64_t>(bytes);
+}
+
+Duration checkpoint_period(const RecordArguments& arguments) {
+  if (arguments.checkpoints.empty()) return {};
+  const Duration period = length_of("--record-checkpoints", arguments.checkpoints);
+  if (period < std::chrono::milliseconds(1))
+    throw std::invalid_argument("--record-checkpoints: '" + arguments.checkpoints + "' is below 1ms");
+  return period;
 }
 
 }  // namespace
@@ -78,19 +74,14 @@ void require_effect(const Command& command, const RecordArguments& arguments) {
                    "is about --record and --log; add one of them, or leave it out");
 }
 
-std::unique_ptr<RecordingWriter> make_recording(const RecordArguments& arguments, RecordingHeader header,
-                                                const SourceSet& sources, const Loaded& loaded) {
-  if (arguments.file().empty()) return nullptr;
-  if (std::erase_if(header.overrides.set, names_plugins) > 0)
-    std::cerr << "note: the recording does not name the plugins of --set; give them again to jarol replay\n";
-  header.what = arguments.record.empty() ? "inputs" : arguments.what;
-  header.split = split_of(arguments.split);
-  header.version = version_text();
-  header.platform = platform_text();
-  std::vector<RecordedFile> files;
-  for (const auto& [path, source] : sources.read()) files.push_back({path, source->text});
-  return std::make_unique<RecordingWriter>(arguments.file(), std::move(header), std::move(files), *loaded.graph,
-                                           compression_of(arguments.compression), types_of_truth(loaded));
+RecordingOptions options_of(const RecordArguments& arguments) {
+  if (arguments.file().empty()) return {};
+  return {.file = arguments.file(),
+          .what = arguments.record.empty() ? "inputs" : arguments.what,
+          .split = split_of(arguments.split),
+          .checkpoints = checkpoint_period(arguments),
+          .version = version_text(),
+          .compression = compression_of(arguments.compression)};
 }
 
 std::string to_text(const RecordArguments& arguments) {
@@ -106,13 +97,6 @@ std::string notes_of(const RecordArguments& arguments, const RecordingWriter& wr
              "'; a replay computes them again\n";
   if (!writer.stayed().empty()) notes += "note: " + printable(writer.stayed()) + "\n";
   return notes;
-}
-
-Duration checkpoint_period(const RecordArguments& arguments) {
-  const Duration period = length_of("--record-checkpoints", arguments.checkpoints);
-  if (period < std::chrono::milliseconds(1))
-    throw std::invalid_argument("--record-checkpoints: '" + arguments.checkpoints + "' is below 1ms");
-  return period;
 }
 
 }  // namespace jarol::tools

@@ -6,9 +6,9 @@
 
 #include "distributers/session/graph_run.h"
 #include "distributers/session/load.h"
+#include "distributers/session/noted.h"
 #include "graph/language/source_set.h"
 #include "runtime/record/recorded_run.h"
-#include "tools/report/noted.h"
 
 namespace jarol::tools {
 

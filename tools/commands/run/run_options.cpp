@@ -13,7 +13,7 @@
 
 namespace jarol::tools {
 
-void add_run_options(Command& command, RunOptions& options) {
+void add_run_options(Command& command, RunArguments& options) {
   command.add_option("FILE", options.file, "The graph, a YAML file")->file({"yaml"})->required();
   command.add_option("--for", options.duration,
                      "How long, in logical time, as in 10s; default: until the mission ends");
@@ -50,7 +50,7 @@ void add_run_options(Command& command, RunOptions& options) {
   add_console_options(command, options.console);
 }
 
-void require_effect(const Command& command, const RunOptions& options) {
+void require_effect(const Command& command, const RunArguments& options) {
   const std::vector<std::string> of_real_clock{"--rt-priority", "--cpus", "--spin", "--force", "--no-guardian"};
   if (options.clock != "real")
     command.refuse(of_real_clock, "belongs to the real clock; add --clock real, or leave it out");
@@ -68,14 +68,7 @@ void require_effect(const Command& command, const RunOptions& options) {
   command.refuse({"--force"}, "belongs to --concurrency exotasks; whether threads come in time is not checked before");
 }
 
-void require_clock(const RunOptions& options, const Loaded& loaded) {
-  if (options.clock == "real") return;
-  if (const Distributer* distributer = find_in_real_time(loaded))
-    throw std::invalid_argument("distributer '" + distributer->name +
-                                "' has a link to what goes on by itself; run it with --clock real");
-}
-
-Duration end_of_run(const RunOptions& options, const Loaded& loaded) {
+Duration end_of_run(const RunArguments& options, const Loaded& loaded) {
   if (!options.duration.empty()) return length_of("--for", options.duration);
   const Duration end = end_of_mission(pointers_to(loaded.channels));
   if (end == Duration{} && (options.clock == "real" || !operators_at_console(loaded).empty())) return Duration::max();
@@ -85,7 +78,7 @@ Duration end_of_run(const RunOptions& options, const Loaded& loaded) {
   return end;
 }
 
-void require_files_apart(const RunOptions& options, const std::vector<Save>& saves) {
+void require_files_apart(const RunArguments& options, const std::vector<Save>& saves) {
   std::vector<NamedFile> outputs{{"--trace", options.files.trace},
                                  {"--plot", options.files.plot},
                                  {"--log", options.recording.log},

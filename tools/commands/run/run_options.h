@@ -15,7 +15,7 @@
 
 namespace jarol::tools {
 
-struct RunOptions {
+struct RunArguments {
   std::string file;
   Overrides overrides;
   std::string duration;
@@ -34,18 +34,16 @@ struct RunOptions {
   ConsoleArguments console;
 };
 
-void add_run_options(Command& command, RunOptions& options);
+void add_run_options(Command& command, RunArguments& options);
 
 // These throw std::invalid_argument.
 
 /// Refuses options that would have no effect.
-void require_effect(const Command& command, const RunOptions& options);
-/// Refuses the virtual clock where something outside goes on by itself.
-void require_clock(const RunOptions& options, const Loaded& loaded);
+void require_effect(const Command& command, const RunArguments& options);
 /// None of the files that the command names replaces another.
-void require_files_apart(const RunOptions& options, const std::vector<Save>& saves);
+void require_files_apart(const RunArguments& options, const std::vector<Save>& saves);
 /// --for, else the end of the longest mission; on the real clock, or with an operator at the console, a graph without
 /// one runs until it is interrupted.
-Duration end_of_run(const RunOptions& options, const Loaded& loaded);
+Duration end_of_run(const RunArguments& options, const Loaded& loaded);
 
 }  // namespace jarol::tools

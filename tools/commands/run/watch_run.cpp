@@ -6,7 +6,8 @@
 
 namespace jarol::tools {
 
-std::unique_ptr<console::View> watch_run(const RunOptions& options, const Loaded& loaded, Duration until, Pace* pace) {
+std::unique_ptr<console::View> watch_run(const RunArguments& options, const Loaded& loaded, Duration until,
+                                         Pace* pace) {
   return std::make_unique<console::Console>(
       console::Watched{{*loaded.graph, options.file, options.clock, until, types_of_truth(loaded),
                         console::find_flow(*loaded.graph, loaded.known->vehicles, loaded.files),

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "distributers/session/load.h"
+#include "distributers/session/pace.h"
 #include "tools/commands/run/run_options.h"
-#include "tools/console/pace.h"
 #include "tools/console/view.h"
 
 namespace jarol::tools {
 
 /// All that is named outlives the page. `pace`: null on the real clock.
-std::unique_ptr<console::View> watch_run(const RunOptions& options, const Loaded& loaded, Duration until, Pace* pace);
+std::unique_ptr<console::View> watch_run(const RunArguments& options, const Loaded& loaded, Duration until, Pace* pace);
 
 }  // namespace jarol::tools

@@ -4,11 +4,11 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "distributers/session/execution.h"
 #include "graph/language/problems.h"
 #include "graph/model/condition.h"
 #include "graph/text/escape.h"
 #include "runtime/execute/executor_run.h"
-#include "tools/commands/run/execution.h"
 #include "tools/commands/run/interrupt.h"
 #include "tools/commands/run/load_graph.h"
 #include "tools/report/duration_option.h"
@@ -97,10 +97,10 @@ void WhatIfs::add_to(std::vector<RecordSink*>& sinks) {
   if (kept_) sinks.push_back(&*kept_);
 }
 
-void WhatIfs::add_to(SavedRun& run) {
+void WhatIfs::add_to(std::vector<Stop>& stops) {
   for (WhatIf& what_if : what_ifs_)
-    run.add({"--what-if", what_if.at, [&what_if](const Checkpoint& checkpoint) { what_if.past = checkpoint; },
-             "what if " + to_text(what_if) + " is not run"});
+    stops.push_back({"--what-if", what_if.at, [&what_if](const Checkpoint& checkpoint) { what_if.past = checkpoint; },
+                     "what if " + to_text(what_if) + " is not run"});
 }
 
 void WhatIfs::run(RunSinks& sinks, RunFiles& files) {
@@ -145,7 +145,7 @@ WhatIfOutcome WhatIfs::run(const WhatIf& what_if, RecordSink* beside) const {
   ComparedValues compared(*kept_, what_if.at);
   std::vector<RecordSink*> sinks{&compared};
   if (beside != nullptr) sinks.push_back(beside);
-  Execution execution(execution_, *loaded.graph, seed_);
+  Execution execution(execution_, *loaded.graph, seed_, "--execution");
   GraphRun other(std::move(loaded),
                  {.sinks = sinks, .workers = workers_, .schedule = execution.schedule(), .times = execution.times()});
   other.set_origin(std::move(origin));

@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "distributers/session/graph_run.h"
+#include "distributers/session/saved_run.h"
 #include "distributers/session/true_state.h"
 #include "runtime/record/kept_values.h"
-#include "tools/commands/run/checkpoints.h"
 #include "tools/commands/run/run_files.h"
 
 namespace jarol::tools {
@@ -64,7 +63,7 @@ class WhatIfs {
                std::string execution, Duration end);
   /// After that: looks on at the run.
   void add_to(std::vector<RecordSink*>& sinks);
-  void add_to(SavedRun& run);
+  void add_to(std::vector<Stop>& stops);
   /// Once the run is over: each to its end, as lines of the picture, too. Throws what a run and its sinks throw.
   void run(RunSinks& sinks, RunFiles& files);
 

@@ -1,4 +1,4 @@
-#include "tools/report/logged_texts.h"
+#include "distributers/session/logged_texts.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -9,7 +9,7 @@
 #include "graph/text/escape.h"
 #include "runtime/plan/output.h"
 
-namespace jarol::tools {
+namespace jarol {
 
 LoggedTexts::LoggedTexts(const Graph& graph) {
   const std::vector<jarol::Output> all = outputs_of(graph);
@@ -70,4 +70,4 @@ nlohmann::ordered_json LoggedTexts::to_json() const {
   return json;
 }
 
-}  // namespace jarol::tools
+}  // namespace jarol

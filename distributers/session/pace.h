@@ -6,11 +6,10 @@
 #include <cstdint>
 #include <mutex>
 #include <optional>
-#include <string>
 
 #include "distributers/session/graph_run.h"
 
-namespace jarol::tools {
+namespace jarol {
 
 class Pace {
  public:
@@ -55,7 +54,4 @@ class Pace {
   Duration logical_{};
 };
 
-/// What --pace says, as in 1, 0.1, 10 or max. Throws std::invalid_argument.
-std::optional<double> parse_pace(const std::string& text);
-
-}  // namespace jarol::tools
+}  // namespace jarol

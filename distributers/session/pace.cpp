@@ -1,11 +1,9 @@
-#include "tools/console/pace.h"
+#include "distributers/session/pace.h"
 
 #include <algorithm>
-#include <charconv>
-#include <stdexcept>
 #include <utility>
 
-namespace jarol::tools {
+namespace jarol {
 namespace {
 
 using namespace std::chrono_literals;
@@ -97,15 +95,4 @@ void Pace::cover(GraphRun& run, Duration end) {
   }
 }
 
-std::optional<double> parse_pace(const std::string& text) {
-  if (text == "max") return std::nullopt;
-  double speed = 0;
-  const char* const end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, speed);
-  if (read.ec != std::errc() || read.ptr != end || !(speed >= Pace::min && speed <= Pace::max))
-    throw std::invalid_argument("--pace: '" + text +
-                                "' is no number from 0.001 to 1000, nor max; write it as in 1, 0.1 or 10");
-  return speed;
-}
-
-}  // namespace jarol::tools
+}  // namespace jarol

@@ -13,7 +13,7 @@
 #include "graph/values/bind.h"
 #include "runtime/record/sink.h"
 
-namespace jarol::tools {
+namespace jarol {
 
 /// Notes when an enumeration of a value that goes out takes an enumerator that has a meaning, and what the enumerations
 /// of that value become until it is left again.
@@ -66,4 +66,4 @@ class StatusEvents : public RecordSink {
   mutable std::mutex mutex_;                          // of a run that has not ended, too, there is a report
 };
 
-}  // namespace jarol::tools
+}  // namespace jarol

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "tools/report/logged_texts.h"
-#include "tools/report/status_events.h"
+#include "distributers/session/logged_texts.h"
+#include "distributers/session/status_events.h"
 
-namespace jarol::tools {
+namespace jarol {
 
 struct Noted {
   explicit Noted(const Graph& graph) : reported(graph), logged(graph) {}
@@ -23,4 +23,4 @@ struct Noted {
   LoggedTexts logged;
 };
 
-}  // namespace jarol::tools
+}  // namespace jarol

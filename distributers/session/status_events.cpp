@@ -1,4 +1,4 @@
-#include "tools/report/status_events.h"
+#include "distributers/session/status_events.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 
 #include "graph/language/quantities.h"
 
-namespace jarol::tools {
+namespace jarol {
 namespace {
 
 struct Word {
@@ -134,4 +134,4 @@ nlohmann::ordered_json StatusEvents::to_json() const {
   return json;
 }
 
-}  // namespace jarol::tools
+}  // namespace jarol

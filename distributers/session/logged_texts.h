@@ -11,7 +11,7 @@
 #include "graph/values/archive.h"
 #include "runtime/record/sink.h"
 
-namespace jarol::tools {
+namespace jarol {
 
 /// Notes when such an output becomes another text; none where it becomes empty.
 class LoggedTexts : public RecordSink {
@@ -54,4 +54,4 @@ class LoggedTexts : public RecordSink {
   mutable std::mutex mutex_;     // of a run that has not ended, too, there is a report
 };
 
-}  // namespace jarol::tools
+}  // namespace jarol
