@@ -68,6 +68,7 @@ struct DepthControl {
 /// DUNE's Attitude with a rate of yaw between heading and fins; positive is to starboard.
 ///   r_d    = kp wrapped(setpoint.heading - psi), or setpoint.rate where a rate is commanded,   |r_d| <= rate_limit
 ///   moment = rate_kp (r_d - r),                                                            |moment| <= fin_limit
+/// Driven astern, as of DepthControl: moment = fin_limit.
 struct HeadingControl {
   static constexpr std::string_view summary = "turns to a commanded heading with the rudders";
   struct Param {

@@ -300,7 +300,8 @@ TEST_SUITE("distributers/links/lockstep_patience") {
     std::string said;
     try {
       LockstepSystem channels(address, 0, std::make_unique<Typed<JaviatorVehicle>>(),
-                              [](Duration) { return std::string(); }, {.key = secret_of(1), .patience = short_patience});
+                              [](Duration) { return std::string(); },
+                              {.key = secret_of(1), .patience = short_patience});
       channels.begin();
       for (int i = 0; i < 100; ++i) channels.reach(i * 5ms);
     } catch (const FrameError& error) { said = error.what(); }
