@@ -122,14 +122,12 @@ TEST_SUITE("tools/lauv_sockets") {
       CHECK(third.heartbeats == 0);
     }
     one.reset();
-    int before = other.heartbeats;
+    const int before = other.heartbeats;
     CHECK(other.say_until([&] { return other.heartbeats > before + 1; }, imc::Heartbeat{}));
     one.emplace(operating, 0x4001);
     CHECK(one->say_until([&] { return one->heartbeats > 1; }, imc::Heartbeat{}));
     CHECK(one->say_until([&] { return one->op_mode == OpMode::ERROR; }, imc::Abort{}));
-    before = other.heartbeats;
-    CHECK(other.say_until([&] { return other.heartbeats > before + 1; }, imc::Heartbeat{}));
-    CHECK(other.op_mode == OpMode::SERVICE);
+    CHECK(other.say_until([&] { return other.op_mode == OpMode::SERVICE; }, imc::Heartbeat{}));
     graph.interrupt();
     CHECK(graph.end() == 130);
     const nlohmann::json link = graph.json()["links"][0];
