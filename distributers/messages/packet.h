@@ -27,7 +27,7 @@ struct Frame {
 };
 
 /// Looks at bytes that should be one packet and nothing else, but not at its fields. With a wrong checksum the frame is
-/// told all the same. `why`, where given, says what is wrong.
+/// reported all the same. `why`, where given, says what is wrong.
 PacketError read_frame(const MessageSet& set, std::span<const std::byte> bytes, Frame& to, std::string* why = nullptr);
 
 /// The byte order that the sync at the begin of the bytes reports, if it is one; there are bytes enough for it.

@@ -1,4 +1,4 @@
-// A loaded graph while it runs: its executor, who looks on, its links, and the verdict on it.
+// A loaded graph while it runs: its executor, its sinks, its links, and the verdict on it.
 #pragma once
 
 #include <optional>
@@ -56,7 +56,7 @@ class GraphRun {
 
   /// Before it is saved or goes on from what was: what it is made of.
   void set_origin(RunOrigin origin) { origin_ = std::make_shared<const RunOrigin>(std::move(origin)); }
-  /// What the run is, on the virtual clock, between two pieces of it; who looks on has got all that was published.
+  /// What the run is, on the virtual clock, between two pieces of it; sinks have got all that was published.
   /// Throws CheckpointError.
   Checkpoint checkpoint();
   /// Throws CheckpointError where it is of another origin; parameters of tasks may differ.
@@ -65,7 +65,7 @@ class GraphRun {
   /// then.
   void restore(const Checkpoint& checkpoint);
 
-  /// After the last instant: who looks on has got all, but for sinks that have failed: throws what these threw.
+  /// After the last instant: sinks have got all, but for those that have failed: throws what these threw.
   void close_sinks() { show_mishaps_and_close(sinks_, graph_, channels_, executor_.report(), executor_.rest()); }
 
   /// Of a run that was to go on `until` and ended like that.

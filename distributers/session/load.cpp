@@ -72,7 +72,7 @@ std::vector<expect::Condition> expectations_of(const Loaded& loaded,
   return all;
 }
 
-// What hangs on where the vehicles are.
+// What depends on where the vehicles are.
 void add_conditions(Loaded& loaded, Problems& problems, const std::vector<std::unique_ptr<ExternalSystem>>& missions,
                     const RecordingHeader* recorded = nullptr) {
   loaded.true_values = true_values_of(loaded, recorded);
