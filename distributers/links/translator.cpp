@@ -175,7 +175,7 @@ std::atomic<std::uint64_t> Translator::Counts::*Translator::why_not(messages::Me
   return is_for_us ? nullptr : &Counts::elsewhere;
 }
 
-// DUNE sends what its tasks tell each other, as which entity is which, addressed to its own system.
+// DUNE sends what its tasks send each other, as which entity is which, addressed to its own system.
 bool Translator::is_to_itself(messages::MessageRef header) const {
   const auto* const value = static_cast<const std::byte*>(header.value);
   const messages::FieldDescriptor& to = *destination_->field;

@@ -23,7 +23,7 @@ namespace jarol::tasks {
 ///   theta_dot = q cos(phi) - r sin(phi)
 /// The integral is this project's: DUNE has none set for its simulator, and stays 5 cm above a depth of 3 m there.
 /// Driven astern by a propeller that does not obey (u < -0.25 m/s) nothing steers: moment = fin_limit, see
-/// vehicles/README.md.
+/// vehicles/failures.md.
 struct DepthControl {
   static constexpr std::string_view summary = "holds a commanded depth with the stern planes";
   struct Param {
