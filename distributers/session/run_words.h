@@ -16,6 +16,10 @@ struct RunWords {
   std::string checkpoints = ".recording.checkpoints";
   std::string end = ".end = 100s";
   std::string real_clock = ".real_clock = true";
+  // of a replay
+  std::string only = ".only";
+  std::string from = ".from";
+  std::string graph = ".file";  // how its graph is named
 };
 
 }  // namespace jarol

@@ -1,4 +1,4 @@
-// A run of a graph from begin to end, as `jarol run` makes it: clock, guardian, recording, checkpoints, who looks on,
+// A run of a graph from begin to end, as `jarol run` makes it: clock, guardian, recording, checkpoints, sinks,
 // links, and the outcome.
 //
 //   jarol::Runner runner(std::move(loaded), {.end = 30s, .recording = {.file = "dive.mcap"}});
@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "distributers/session/attendant.h"
 #include "distributers/session/errors.h"
 #include "distributers/session/execution.h"
 #include "distributers/session/graph_run.h"
@@ -20,15 +21,6 @@
 #include "runtime/record/recording_writer.h"
 
 namespace jarol {
-
-/// Who attends a run: what asks it to end, and who is told of it on its way.
-struct Attendant {
-  std::function<Wish()> wish = [] { return Wish{}; };
-  NoteSink note = no_notes;  // likewise of what comes up on the way: it waits for nobody
-  std::function<void(const Ending&)> on_rest = [](const Ending&) {};
-  std::function<void()> on_end = [] {};
-  StuckNote on_stuck{};
-};
 
 class Runner {
  public:

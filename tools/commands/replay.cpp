@@ -9,27 +9,26 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "distributers/session/graph_run.h"
-#include "distributers/session/only_tasks.h"
+#include "distributers/session/recorded_events.h"
 #include "distributers/session/recorded_truth.h"
-#include "distributers/session/replay.h"
-#include "distributers/session/rest_verdict.h"
+#include "distributers/session/replayer.h"
 #include "graph/text/escape.h"
-#include "runtime/record/replayed_values.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/log/break_note.h"
-#include "tools/commands/log/recorded_graph.h"
 #include "tools/commands/run/apart.h"
 #include "tools/commands/run/crash_line.h"
 #include "tools/commands/run/interrupt.h"
+#include "tools/commands/run/load_graph.h"
 #include "tools/commands/run/no_plugins.h"
 #include "tools/commands/run/panels.h"
 #include "tools/commands/run/prompt_line.h"
-#include "tools/commands/run/replay_start.h"
+#include "tools/commands/run/real_time.h"
 #include "tools/commands/run/run_files.h"
 #include "tools/commands/run/run_report.h"
+#include "tools/library/built_in.h"
 #include "tools/report/command_line.h"
 #include "tools/report/differences_report.h"
+#include "tools/report/duration_option.h"
 #include "tools/report/fault_report.h"
 #include "tools/report/json_line.h"
 #include "tools/report/progress.h"
@@ -39,7 +38,7 @@
 namespace jarol::tools {
 namespace {
 
-struct ReplayOptions {
+struct ReplayArguments {
   std::string log;
   std::string file;
   Overrides overrides;
@@ -85,7 +84,7 @@ std::string text_of(const Comparison& comparison, const Report& report, const Re
 }
 
 nlohmann::ordered_json json_of(const RunOutcome& outcome, const Comparison& comparison, const RecordedRun& log,
-                               const Differences& differences, const ReplayOptions& options, std::size_t misses) {
+                               const Differences& differences, const ReplayArguments& options, std::size_t misses) {
   auto json = to_json(outcome);
   const auto or_null = [](bool known, const auto& value) {
     return known ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
@@ -111,144 +110,74 @@ nlohmann::ordered_json json_of(const RunOutcome& outcome, const Comparison& comp
   return json;
 }
 
-// What is changed might have taken the vehicle elsewhere; where values are missing nobody knows where it was then.
-RecordedWorld world_of(const ReplayOptions& options, Duration begin, const RecordedRun& log) {
-  if (begin > Duration{}) return RecordedWorld::systems;
-  const bool is_changed = !options.overrides.set.empty() || !options.overrides.profile.empty() || !options.only.empty();
-  return is_changed || !log.gaps().empty() ? RecordedWorld::nothing : RecordedWorld::truth;
+void print(const ReplayArguments& options, const Replayer& replayer, const ReplayOutcome& outcome,
+           const RecordedRun& log, bool written) {
+  const RunOutcome& run = outcome.run;
+  const Comparison& comparison = outcome.comparison;
+  if (options.json) {
+    std::cout << json_line(json_of(run, comparison, log, outcome.differences, options, replayer.misses()));
+    return;
+  }
+  const std::string from = run.begun > Duration{} ? ", from " + seconds_text(run.begun) + " s on," : "";
+  std::cout << fmt::format("{}: replay of {} s{} in {:.2f} s, {:.0f} times real time{}\n", printable(run.graph().name),
+                           seconds_text(run.simulated), from, run.seconds, real_time_factor(run),
+                           comparison.interrupted ? " (interrupted)" : "")
+            << to_text(run)
+            << fmt::format("  log         {} values from outside, {} activations late or left out\n", log.values(),
+                           replayer.misses());
+  if (written) std::cout << to_text(options.files);
+  if (!replayer.judges()) std::cout << "  expected    not judged, as the replay begins on the way\n";
+  std::cout << text_of(comparison, run.report, log, outcome.differences, replayer.is_other_text(),
+                       !options.only.empty());
+  if (options.file.empty())
+    for (const std::string& file : changed_files(log.recording()))
+      std::cout << "  changed     '" << printable(file)
+                << "' is not what the run has read; it was replayed as it was then\n";
+  std::cerr << fault_report(run.report);
 }
 
-int replay(const ReplayOptions& options) {
+int exit_code_of_replay(const ReplayOutcome& outcome, bool written) {
+  const Comparison& comparison = outcome.comparison;
+  const int compared = comparison.interrupted || comparison.evidence == Evidence::same ? exit_good
+                       : comparison.evidence == Evidence::diverged                     ? exit_negative
+                                                                                       : exit_unfinished;
+  const int judged = !comparison.interrupted && outcome.run.verdict.is_negative() ? exit_negative : exit_good;
+  return exit_of({exit_code_of(outcome.run.end), compared, judged, written ? exit_good : exit_unfinished});
+}
+
+int replay(const ReplayArguments& options) {
   RecordedRun log(options.log);
   note_gaps(log.recording(), options.log);
-  const Duration begin = replay_begin(options.from, log);
-  const Overrides overrides = overrides_of(log.recording(), options.file, options.overrides);
-  const RecordedWorld world = world_of(options, begin, log);
-  Loaded whole = load_recorded(log.recording(), options.file, overrides, world);
   require_apart({{"LOG", options.log}, {"FILE", options.file.empty() ? log.header().file : options.file}},
                 {{"--trace", options.files.trace}, {"--plot", options.files.plot}});
-  if (begin > Duration{} && !options.only.empty())
-    throw std::invalid_argument("--only begins at the start of a run; leave out --from, or replay a recording of that");
-  std::vector<Miss> misses = log.begin(*whole.graph, begin);
-  std::optional<OnlyTasks> only;
-  if (!options.only.empty() && !log.gaps().empty())
-    throw std::invalid_argument("--only: the recording lacks published values that these tasks may have read, from " +
-                                seconds_text(Duration(log.gaps().front().from)) +
-                                " s on, as they came faster than the disk took them; leave --only out");
-  if (!options.only.empty()) {
-    only.emplace(*whole.graph, options.only, log.recording());
-    misses = only->misses_of(misses);
-  } else {
-    std::vector<std::unique_ptr<ExternalSystem>> replayed = recorded_channels(whole, log);
-    whole.channels =
-        begin > Duration{} ? with_state_of(std::move(whole.channels), std::move(replayed)) : std::move(replayed);
-  }
-  // conditions are about whole runs
-  const bool judges = begin == Duration{} || whole.graph->expectations.empty();
-  if (!judges) whole.graph->expectations.clear();
-  Loaded loaded = only ? only->take() : std::move(whole);
-  RunOrigin origin;
-  if (begin > Duration{}) origin = origin_of(loaded, overrides, log.header().seed);
-  const Graph& graph = *loaded.graph;
+  Replayer replayer(log, built_in(),
+                    {.file = options.file,
+                     .overrides = options.overrides,
+                     .only = options.only,
+                     .from = options.from.empty() ? std::nullopt : std::optional(duration_of("--from", options.from)),
+                     .note = note_once,
+                     .words = run_words});
+  const Graph& graph = *replayer.loaded().graph;
   const ReportsAside aside(options.files);
-  RunFiles files(graph, options.files, note_of(overrides, log.header().seed), types_of_truth(loaded));
-  Noted noted(graph);
-  std::vector<RecordSink*> looking_on = files.sinks();
-  noted.add_to(looking_on);
-  ReplayedValues values(log, outputs_of(graph), only ? &only->outputs() : nullptr, begin);
-  if (only && !values.has_any())
-    throw std::invalid_argument("--only: the recording has no values of these tasks to compare with");
-  if (values.has_any()) looking_on.push_back(&values);
-  GraphRun graph_run(std::move(loaded), {.sinks = looking_on, .misses = misses, .truth = files.shows_truth()});
-  if (begin > Duration{}) restore_recorded(graph_run, noted, log, begin, std::move(origin));
-  RunSinks& sinks = graph_run.sinks();
-  Executor& executor = graph_run.executor();
-  if (log.rest_begun()) sinks.judge_before(*log.rest_begun());
-  const auto start = std::chrono::steady_clock::now();
-  ReplayRun attended(executor, log, !only);
+  RunFiles files(graph, options.files, note_of(replayer.overrides(), log.header().seed),
+                 types_of_truth(replayer.loaded()));
+  replayer.begin(files.sinks(), files.shows_truth());
   const CrashLine crash_line(graph);
   let_writing_fail();
   const Interruptible interruptible;
   std::optional<Progress> progress;
-  progress.emplace(!options.json && isatty(STDERR_FILENO) != 0, log.covered(), [&] { return executor.now(); });
-  const RunEnd run_end = attend(
-      attended, [] {}, Interruptible::wish, [](const Ending&) {}, [] {}, {.report = report_stuck});
+  progress.emplace(!options.json && isatty(STDERR_FILENO) != 0, log.covered(), [&] { return replayer.now(); });
+  const RunEnd& run_end = replayer.attend({.wish = Interruptible::wish, .on_stuck = {.report = report_stuck}});
   progress.reset();
-  if (run_end.failure) std::rethrow_exception(run_end.failure);
-  Comparison& comparison = attended.comparison;
-  comparison.interrupted = comparison.interrupted || run_end.hangs;
-  const double seconds =
-      std::max(1e-9, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  if (!comparison.interrupted && !only) log.require_all_taken();
-  std::string unwritten;
-  try {
-    if (run_end.hangs && (!files.sinks().empty() || !graph.expectations.empty()))
-      unwritten = "trace and picture are not written, as the replay has not ended";
-    if (!run_end.hangs) sinks.close();
-  } catch (const std::exception& error) { unwritten = error.what(); }
-  const bool compared_all = run_end.hangs || !values.has_any() || sinks.why_not_all(values).empty();
-  if (!compared_all && comparison.evidence == Evidence::same) comparison.evidence = Evidence::unknown;
-  const Differences& differences = values.differences();
-  if (differences.first() && !comparison.interrupted && compared_all) {
-    comparison.evidence = Evidence::diverged;
-    // where somebody has changed a recorded value its digests are still those of the run
-    if (comparison.same_until) comparison.same_until = std::min(*comparison.same_until, differences.first()->instant);
-  }
-  const Report& report = executor.report();
-  RunVerdict verdict;
-  const Duration reached = comparison.interrupted || !log.end() ? report.simulated : Duration(log.end()->simulated);
-  if (!run_end.hangs)
-    verdict.expectations = sinks.judge(judged_until(log.rest_begun(), log.header().until, report.covered),
-                                       why_cut_short(judged_until(log.rest_begun(), log.header().until, reached),
-                                                     log.header().until, log.header().mission));
-  const bool is_other_text = !options.file.empty() && !is_text_of_run(options.file, log.recording());
-  judge_no_other_truth(graph, comparison.evidence, is_other_text, verdict.expectations);
-  verdict.left_out = find_left_out(graph, report);
-  // what is the same to the last value, in part too, is what that vehicle was flown by
-  const bool is_of_run = comparison.evidence == Evidence::same ||
-                         (world == RecordedWorld::truth && comparison.evidence != Evidence::diverged);
-  if (is_of_run && !comparison.interrupted) verdict.mishaps = read_mishaps(log.recording());
-  if (const auto rest = read_rest(log.recording());
-      rest && !rest->reached && log.end() && is_of_run && !comparison.interrupted)
-    verdict.not_at_rest = "the vehicle of the run did not come to rest";
-  const RunOutcome outcome{.state = executor.state(),
-                           .report = report,
-                           .rest = executor.rest(),
-                           .failsafe = executor.failsafe(),
-                           .noted = noted,
-                           .end = run_end,
-                           .seconds = seconds,
-                           .begun = begin,
-                           .simulated = reached,
-                           .verdict = verdict};
-  if (options.json) {
-    std::cout << json_line(json_of(outcome, comparison, log, differences, options, misses.size()));
-  } else {
-    const std::string from = begin > Duration{} ? ", from " + seconds_text(begin) + " s on," : "";
-    std::cout << fmt::format("{}: replay of {} s{} in {:.2f} s, {:.0f} times real time{}\n", printable(graph.name),
-                             seconds_text(outcome.simulated), from, seconds, real_time_factor(outcome),
-                             comparison.interrupted ? " (interrupted)" : "")
-              << to_text(outcome)
-              << fmt::format("  log         {} values from outside, {} activations late or left out\n", log.values(),
-                             misses.size());
-    if (unwritten.empty()) std::cout << to_text(options.files);
-    if (!judges) std::cout << "  expected    not judged, as the replay begins on the way\n";
-    std::cout << text_of(comparison, report, log, differences, is_other_text, only.has_value());
-    if (options.file.empty())
-      for (const std::string& file : changed_files(log.recording()))
-        std::cout << "  changed     '" << printable(file)
-                  << "' is not what the run has read; it was replayed as it was then\n";
-    std::cerr << fault_report(report);
-  }
-  std::cerr << failures_text(verdict);
+  const ReplayOutcome outcome = replayer.finish();
+  std::string unwritten = outcome.run.unwritten;
+  if (run_end.hangs && (!files.sinks().empty() || !graph.expectations.empty()))
+    unwritten = "trace and picture are not written, as the replay has not ended";
+  print(options, replayer, outcome, log, unwritten.empty());
+  std::cerr << failures_text(outcome.run.verdict);
   if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";
-  std::cerr << errors_of(run_end, executor.now());
-  const int compared = comparison.interrupted || comparison.evidence == Evidence::same ? exit_good
-                       : comparison.evidence == Evidence::diverged                     ? exit_negative
-                                                                                       : exit_unfinished;
-  const int judged = !comparison.interrupted && verdict.is_negative() ? exit_negative : exit_good;
-  const int exit_code =
-      exit_of({exit_code_of(run_end), compared, judged, unwritten.empty() ? exit_good : exit_unfinished});
+  std::cerr << errors_of(run_end, replayer.now());
+  const int exit_code = exit_code_of_replay(outcome, unwritten.empty());
   if (run_end.hangs) end_at_once(exit_code);
   return exit_code;
 }
@@ -256,7 +185,7 @@ int replay(const ReplayOptions& options) {
 }  // namespace
 
 void add_replay(CommandLine& line, int& exit_code) {
-  auto options = std::make_shared<ReplayOptions>();
+  auto options = std::make_shared<ReplayArguments>();
   Command* command = line.add_subcommand(
       "replay",
       "Run again what jarol run --record or --log has recorded: on the virtual clock, without vehicles or links, "

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "distributers/session/replay_start.h"
 #include "graph/language/problems.h"
 #include "graph/text/escape.h"
 #include "graph/text/shell_word.h"
@@ -19,7 +20,6 @@
 #include "tools/commands/log/report_replay.h"
 #include "tools/commands/log/report_signals.h"
 #include "tools/commands/run/apart.h"
-#include "tools/commands/run/replay_start.h"
 #include "tools/drawing/graph/drawing_json.h"
 #include "tools/drawing/graph/layout.h"
 #include "tools/drawing/pages/page.h"

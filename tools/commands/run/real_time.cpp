@@ -54,7 +54,10 @@ const RunWords run_words{.priority = "--rt-priority",
                          .execution = "--execution",
                          .checkpoints = "--record-checkpoints",
                          .end = "--for 100s",
-                         .real_clock = "--clock real"};
+                         .real_clock = "--clock real",
+                         .only = "--only",
+                         .from = "--from",
+                         .graph = "jarol replay LOG FILE"};
 
 void add_real_time_options(Command& command, RealTimeArguments& arguments) {
   command

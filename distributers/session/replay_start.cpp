@@ -1,15 +1,14 @@
-#include "tools/commands/run/replay_start.h"
+#include "distributers/session/replay_start.h"
 
 #include <algorithm>
 #include <stdexcept>
 
+#include "graph/language/quantities.h"
 #include "graph/language/read_source.h"
 #include "graph/language/source_set.h"
 #include "runtime/checkpoint/checkpoint.h"
-#include "tools/commands/run/load_graph.h"
-#include "tools/report/duration_option.h"
 
-namespace jarol::tools {
+namespace jarol {
 namespace {
 
 // A recording may come from anybody: what is no regular file, or larger than a source may be, is not read.
@@ -21,34 +20,38 @@ bool is_on_disk(const RecordedFile& file) {
 
 }  // namespace
 
-Overrides overrides_of(const Recording& recording, const std::string& file, const Overrides& given) {
+Overrides overrides_of(const Recording& recording, const std::string& file, const Overrides& given,
+                       const std::string& how_named) {
   Overrides overrides = recording.header().overrides;
   overrides.no_plugins = given.no_plugins;
   if (overrides.no_plugins.empty() && file.empty() && std::none_of(given.set.begin(), given.set.end(), names_plugins))
     overrides.no_plugins =
-        "the recording names this graph, and a recording names no code; name it yourself: jarol replay LOG FILE";
+        "the recording names this graph, and a recording names no code; name it yourself: " + how_named;
   if (!given.profile.empty()) overrides.profile = given.profile;
   overrides.set.insert(overrides.set.end(), given.set.begin(), given.set.end());
   return overrides;
 }
 
-void give_recorded(const Recording& recording, const Overrides& overrides, const std::string& command,
+void give_recorded(const Recording& recording, const Overrides& overrides, const std::string& how_named,
                    SourceSet& sources) {
   for (const RecordedFile& recorded : recording.files()) sources.give(recorded.path, recorded.text);
   const Overrides& own = recording.header().overrides;
   if (overrides.set == own.set && overrides.profile == own.profile)
-    sources.close("the recording does not hold it, and is not to say what else is read; name the graph: " + command);
+    sources.close("the recording does not hold it, and is not to say what else is read; name the graph: " + how_named);
 }
 
-Loaded load_recorded(const Recording& recording, const std::string& file, const Overrides& overrides,
-                     RecordedWorld world) {
+Loaded load_recorded(const Recording& recording, const distributers::Registries& known, const std::string& file,
+                     const Overrides& overrides, RecordedWorld world, const NoteSink& note,
+                     const std::string& how_named) {
   const auto load = [&](const std::string& path) {
-    if (world == RecordedWorld::systems) return load_graph(path, overrides, recording.header().seed);
-    return load_without_channels(path, overrides, world == RecordedWorld::truth ? &recording.header() : nullptr);
+    if (world == RecordedWorld::systems)
+      return load_graph(read_source(path), known, overrides, recording.header().seed, note);
+    return load_without_channels(read_source(path), known, overrides, note,
+                                 world == RecordedWorld::truth ? &recording.header() : nullptr);
   };
   if (!file.empty()) return load(file);
   SourceSet sources;
-  give_recorded(recording, overrides, "jarol replay LOG FILE", sources);
+  give_recorded(recording, overrides, how_named, sources);
   return load(recording.header().file);
 }
 
@@ -65,17 +68,17 @@ bool is_text_of_run(const std::string& file, const Recording& recording) {
                      [&](const RecordedFile& f) { return f.path == recording.header().file && f.text == text; });
 }
 
-Duration replay_begin(const std::string& option, const RecordedRun& log) {
+Duration replay_begin(const std::optional<Duration>& from, const RecordedRun& log, const std::string& option) {
   const Duration begin = log.header().begin;
-  if (option.empty()) return begin;
-  const Duration from = duration_of("--from", option);
-  if (from < begin) throw std::invalid_argument("--from: the recording begins at " + seconds_text(begin) + " s");
-  if (from >= log.covered())
-    throw std::invalid_argument("--from: the recording ends at " + seconds_text(log.covered()) + " s");
-  if (const std::optional<Duration> saved = log.saved_before(from)) return *saved;
-  if (from > begin && !log.saved_before(log.covered()))
+  if (!from) return begin;
+  if (*from < begin) throw std::invalid_argument(option + ": the recording begins at " + seconds_text(begin) + " s");
+  if (*from >= log.covered())
+    throw std::invalid_argument(option + ": the recording ends at " + seconds_text(log.covered()) + " s");
+  if (const std::optional<Duration> saved = log.saved_before(*from)) return *saved;
+  if (*from > begin && !log.saved_before(log.covered()))
     throw std::invalid_argument(
-        "--from: the recording holds no checkpoints; record it with --record-checkpoints 10s, or replay it as a whole");
+        option +
+        ": the recording holds no checkpoints; record it with --record-checkpoints 10s, or replay it as a whole");
   return begin;
 }
 
@@ -95,4 +98,4 @@ void restore_recorded(GraphRun& run, Noted& noted, const RecordedRun& log, Durat
   }
 }
 
-}  // namespace jarol::tools
+}  // namespace jarol
