@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <iterator>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 
-#include "graph/language/problems.h"
+#include "tools/report/command_words.h"
 #include "tools/report/failure.h"
 
 namespace jarol::tools {
@@ -40,62 +38,6 @@ std::string wrong_number(const std::string& text) {
 // As of a variable of the shell that is not set: it would be taken as if the option were not there.
 std::string wrong_text(const std::string& text) {
   return text.empty() ? "'' says nothing; leave the option out, or give it something" : "";
-}
-
-// A word that is written as an option.
-struct OptionWord {
-  std::string name;
-  const CLI::Option* option = nullptr;  // none of the command
-  std::optional<std::string> joined;    // its value, in the same word
-};
-
-std::vector<OptionWord> options_among(const CLI::App& command, const std::vector<std::string>& words) {
-  const auto options = command.get_options();
-  const auto find = [&](const std::string& name) -> const CLI::Option* {
-    const auto found =
-        std::find_if(options.begin(), options.end(), [&](const CLI::Option* o) { return o->check_name(name); });
-    return found == options.end() ? nullptr : *found;
-  };
-  std::vector<OptionWord> found;
-  for (auto word = words.begin(); word != words.end(); ++word) {
-    if (*word == "--") break;  // what follows are arguments
-    if (word->size() < 2 || (*word)[0] != '-' || word->find_first_of("0123456789.") == 1) continue;
-    const std::size_t equals = word->find('=');
-    OptionWord& at = found.emplace_back();
-    at.name = word->substr(0, equals);
-    at.option = find(at.name);
-    if (equals != std::string::npos) at.joined = word->substr(equals + 1);
-    if (at.option == nullptr && !word->starts_with("--")) {  // as in -oFOLDER
-      at.option = find(word->substr(0, 2));
-      if (at.option != nullptr) at.joined = word->substr(2);
-    }
-    // what follows is its value, whatever it looks like
-    const bool takes_next = at.option != nullptr && at.option->get_items_expected_min() > 0 && !at.joined;
-    if (takes_next && std::next(word) != words.end()) ++word;
-  }
-  return found;
-}
-
-// CLI11 takes --json=false for no flag, and --json=3 for one.
-std::string flag_with_value(const CLI::App& command, const std::vector<std::string>& words) {
-  for (const OptionWord& word : options_among(command, words))
-    if (word.option != nullptr && word.option->get_items_expected_max() == 0 && word.joined &&
-        word.option->get_type_name().empty())
-      return word.name + " takes no value, and has '" + *word.joined + "'; write " + word.name +
-             " alone, or leave it out";
-  return "";
-}
-
-std::string unknown_option(const CLI::App& command, const std::vector<std::string>& words) {
-  for (const OptionWord& word : options_among(command, words)) {
-    if (word.option != nullptr) continue;
-    std::vector<std::string> known;
-    for (const CLI::Option* option : command.get_options())
-      if (!option->get_positional()) known.push_back(option->get_name());
-    return command.get_name() + " has no option '" + word.name + "'" +
-           (word.name.starts_with("--") ? did_you_mean(word.name, known) : "") + "; it has: " + list_of(known);
-  }
-  return "";
 }
 
 }  // namespace
@@ -284,7 +226,10 @@ void CommandLine::parse(int argc, char** argv) {
     // the value of a mistyped option looks like an argument, which CLI11 reports instead
     if (words.command != app_.get())
       if (const std::string wrong = unknown_option(*words.command, words.own); !wrong.empty()) throw UsageError(wrong);
-    throw UsageError(error.what(), "Run with --help for more information.\n");
+    const std::vector<std::string> left = words.command->remaining();
+    const bool too_many = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !left.empty();
+    throw UsageError(too_many ? argument_too_many(*words.command, left.front(), words.own) : error.what(),
+                     "Run with --help for more information.\n");
   }
 }
 

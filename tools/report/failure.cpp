@@ -67,8 +67,7 @@ Failure failure_of(const std::exception_ptr& error, const std::string& file) {
   } catch (const SpecError& wrong) {
     return {exit_input, wrong.problems(), wrong.what() + ("\n" + sum(wrong.problems().size()))};
   } catch (const UsageError& wrong) {
-    const std::string begin = wrong.more.empty() ? "error: " : "";
-    return {exit_input, {{{}, wrong.what(), {}}}, begin + printable(wrong.what()) + "\n" + wrong.more};
+    return {exit_input, {{{}, wrong.what(), {}}}, "error: " + printable(wrong.what()) + "\n" + wrong.more};
   } catch (const NegativeVerdict& negative) {
     failure = of_one(exit_negative, negative.what());
   } catch (const NotSchedulable& negative) {

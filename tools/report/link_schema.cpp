@@ -74,8 +74,18 @@ Json rules_of(const DistributerClass& distributer, const distributers::Registrie
 }  // namespace
 
 Json link_schemas(const distributers::Registries& known) {
-  Json all = Json::object();
-  for (const LinkType& type : known.links.entries()) all["link." + type.name] = link_schema(type);
+  Json all = Json::object(), of_vehicles = Json::array();
+  for (const vehicles::VehicleClass& vehicle : known.vehicles.entries()) {
+    all["vehicle." + vehicle.name] = fields_schema(*vehicle.parameters);
+    of_vehicles.push_back({{"$ref", "#/definitions/vehicle." + vehicle.name}});
+  }
+  for (const LinkType& type : known.links.entries()) {
+    Json& link = all["link." + type.name] = link_schema(type);
+    // whose they are stands in another file, the vehicle's
+    Json& properties = link["properties"];
+    if (properties.contains("vehicle") && properties.contains("parameters") && !of_vehicles.empty())
+      properties["parameters"]["anyOf"] = of_vehicles;
+  }
   return all;
 }
 

@@ -31,11 +31,15 @@ TEST_SUITE("tools/command_line") {
     CHECK(refusal_of("check --generate waters -ofolder --cout 3")
               .starts_with("error: check has no option '--cout'; did you mean '--count'?; it has: "));
     CHECK(refusal_of("check --generate waters -ofolder --count 0") ==
-          "--count: Value 0 not in range 1 to 1000000\nRun with --help for more information.\n");
+          "error: --count: Value 0 not in range 1 to 1000000\nRun with --help for more information.\n");
     // behind two dashes stand arguments
     CHECK(refusal_of("graph -- --profil") == "error: can't read '--profil': No such file or directory\n1 error\n");
-    CHECK(refusal_of("graph specs/counting.yaml another.yaml") ==
-          "The following argument was not expected: another.yaml\nRun with --help for more information.\n");
+    const std::string help = "\nRun with --help for more information.\n";
+    CHECK(refusal_of("graph specs/counting.yaml another.yaml more.yaml") ==
+          "error: graph takes FILE and no more, and has 'another.yaml'" + help);
+    CHECK(refusal_of("graph specs/counting.yaml --svg counting.svg") ==
+          "error: graph takes FILE and no more, and has 'counting.svg' behind --svg, which takes no value" + help);
+    CHECK(refusal_of("doctor now") == "error: doctor takes no argument, and has 'now'" + help);
   }
 
   TEST_CASE("a flag takes no value, whatever it is") {
@@ -85,7 +89,7 @@ TEST_SUITE("tools/command_line") {
     for (const std::string seed : {"-1", "18446744073709551616", "010", "0x10", "1.5", "seven", "''", "+7", "-0"}) {
       CAPTURE(seed);
       CHECK(refusal_of(run + seed) ==
-            "--seed: '" + (seed == "''" ? "" : seed) +
+            "error: --seed: '" + (seed == "''" ? "" : seed) +
                 "' is no whole number from 0 to 18446744073709551615; write it in decimal, without zeros in front\n"
                 "Run with --help for more information.\n");
     }
@@ -93,7 +97,8 @@ TEST_SUITE("tools/command_line") {
 
   TEST_CASE("so are other numbers: 010 is not eight") {
     CHECK(refusal_of("bench --repeats 010") ==
-          "--repeats: '010' is no whole number from -2147483648 to 2147483647; write it in decimal, without zeros in "
+          "error: --repeats: '010' is no whole number from -2147483648 to 2147483647; write it in decimal, without "
+          "zeros in "
           "front\nRun with --help for more information.\n");
   }
 
@@ -101,11 +106,11 @@ TEST_SUITE("tools/command_line") {
     for (const std::string margin : {"nan", "inf", "1e999", "0x10", "twenty", "''", "+5"}) {
       CAPTURE(margin);
       CHECK(refusal_of("check --write no/such.yaml --margin " + margin) ==
-            "--margin: '" + (margin == "''" ? "" : margin) +
+            "error: --margin: '" + (margin == "''" ? "" : margin) +
                 "' is no finite number in decimal; write it as in 20 or 0.5\nRun with --help for more information.\n");
     }
     CHECK(refusal_of("check --write no/such.yaml --margin -0.5") ==
-          "--margin: Value -0.5 not in range 0.000000 to 10000.000000\nRun with --help for more information.\n");
+          "error: --margin: Value -0.5 not in range 0.000000 to 10000.000000\nRun with --help for more information.\n");
     CHECK(refusal_of("check --write no/such.yaml --margin 2.5e1") ==
           "error: can't read 'no/such.yaml': No such file or directory\nno/such.yaml: 1 error\n");
   }
@@ -116,9 +121,10 @@ TEST_SUITE("tools/command_line") {
         "Run with --help for more information.\n";
     const std::string run = "run specs/counting.yaml --for 10ms ";
     for (const std::string option : {"--trace", "--plot", "--profile", "--set", "--for", "--cpus"})
-      CHECK(refusal_of((option == "--for" ? "run specs/counting.yaml " : run) + option + " ''") == option + why);
-    CHECK(refusal_of("check '' specs/counting.yaml") == "FILE" + why);
-    CHECK(refusal_of("check specs/counting.yaml --svg ''") == "--svg" + why);
-    CHECK(refusal_of("vehicle submarine --link udp --listen ''") == "--listen" + why);
+      CHECK(refusal_of((option == "--for" ? "run specs/counting.yaml " : run) + option + " ''") ==
+            "error: " + option + why);
+    CHECK(refusal_of("check '' specs/counting.yaml") == "error: FILE" + why);
+    CHECK(refusal_of("check specs/counting.yaml --svg ''") == "error: --svg" + why);
+    CHECK(refusal_of("vehicle submarine --link udp --listen ''") == "error: --listen" + why);
   }
 }

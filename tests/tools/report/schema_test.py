@@ -35,7 +35,7 @@ BEYOND_A_SCHEMA = {
     "other files": """
         link_file_missing link_key_missing plugins_no_file plugins_no_library script_cells script_empty
         script_first_column script_order script_time script_unknown_column script_value trim_file_is_none
-        vehicle_file_key vehicle_grid vehicle_impossible vehicle_parameter vehicle_unknown""",
+        vehicle_file_key vehicle_grid vehicle_impossible vehicle_unknown""",
     "overrides": """
         profile_missing profile_path_has_an_empty_part profile_path_through_a_word profile_path_unknown
         profile_takes_away_what_is_not_there""",
