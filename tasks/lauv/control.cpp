@@ -9,13 +9,15 @@
 namespace jarol::tasks {
 namespace {
 
-constexpr double astern = 0.25;  // m/s, beyond what waves and the noise of the log make of a vehicle at rest
+constexpr double astern = 0.5;    // m/s
+constexpr double some_waves = 3;  // s, over which the surge is averaged: who rests in waves moves to and fro
 
 // By a propeller that does not do what it is sent. Then nothing steers: the push of a fin at the stern moves the hull
 // across the flow, and what the hull does there undoes the fin's moment, more than that above some 0.6 m/s. What is
 // left is how deep it goes: least with the stern lifted, and with rudders hard over, as circles cost speed.
-bool driven_astern(const Motion& m, const Setpoint& setpoint) {
-  return m.u < -astern && (setpoint.drive == Drive::speed || setpoint.thrust >= 0);
+bool driven_astern(const Motion& m, const Setpoint& setpoint, double& surge, double dt) {
+  surge += (m.u - surge) * dt / (some_waves + dt);
+  return surge < -astern && (setpoint.drive == Drive::speed || setpoint.thrust >= 0);
 }
 
 }  // namespace
@@ -38,14 +40,14 @@ void DepthControl::run(const Param& p, const Tick& tick, const In& in, State& st
   // the rate of the Euler angle, not of the body: they differ in a turn
   const double theta_dot = m.q * std::cos(m.phi) - m.r * std::sin(m.phi);
   out.moment.angle = limited(p.pitch_kp * (theta - m.theta) - p.pitch_kd * theta_dot, p.fin_limit);
-  if (driven_astern(m, in.setpoint)) out.moment.angle = p.fin_limit;
+  if (driven_astern(m, in.setpoint, state.surge, seconds(tick.period))) out.moment.angle = p.fin_limit;
 }
 
-void HeadingControl::run(const Param& p, const Tick&, const In& in, Out& out) {
+void HeadingControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const double error = wrapped(in.setpoint.heading - in.motion.psi);
   const double rate = limited(in.setpoint.turn == Turn::rate ? in.setpoint.rate : p.kp * error, p.rate_limit);
   out.moment.angle = limited(p.rate_kp * (rate - in.motion.r), p.fin_limit);
-  if (driven_astern(in.motion, in.setpoint)) out.moment.angle = p.fin_limit;
+  if (driven_astern(in.motion, in.setpoint, state.surge, seconds(tick.period))) out.moment.angle = p.fin_limit;
 }
 
 void SpeedControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {

@@ -22,8 +22,8 @@ namespace jarol::tasks {
 ///   moment  = pitch_kp (theta_d - theta) - pitch_kd theta_dot,              |moment| <= fin_limit
 ///   theta_dot = q cos(phi) - r sin(phi)
 /// The integral is this project's: DUNE has none set for its simulator, and stays 5 cm above a depth of 3 m there.
-/// Driven astern by a propeller that does not obey (u < -0.25 m/s) nothing steers: moment = fin_limit, see
-/// vehicles/failures.md.
+/// Driven astern by a propeller that does not obey (u < -0.5 m/s over some seconds) nothing steers: moment = fin_limit,
+/// see vehicles/failures.md.
 struct DepthControl {
   static constexpr std::string_view summary = "holds a commanded depth with the stern planes";
   struct Param {
@@ -53,9 +53,10 @@ struct DepthControl {
     static constexpr auto fields() { return describe(field<&In::motion>(), field<&In::setpoint>()); }
   };
   struct State {
-    double pitch_trim = 0;
+    double pitch_trim = 0, surge = 0;
     static constexpr auto fields() {
-      return describe(field<&State::pitch_trim>("rad", "pitch that holds the depth, learnt by the integral"));
+      return describe(field<&State::pitch_trim>("rad", "pitch that holds the depth, learnt by the integral"),
+                      field<&State::surge>("m/s", "averaged over some waves"));
     }
   };
   struct Out {
@@ -89,11 +90,15 @@ struct HeadingControl {
     Setpoint setpoint{};
     static constexpr auto fields() { return describe(field<&In::motion>(), field<&In::setpoint>()); }
   };
+  struct State {
+    double surge = 0;
+    static constexpr auto fields() { return describe(field<&State::surge>("m/s", "averaged over some waves")); }
+  };
   struct Out {
     Moment moment{};
     static constexpr auto fields() { return describe(field<&Out::moment>("", "about the yaw axis, to starboard")); }
   };
-  static void run(const Param& p, const Tick&, const In& in, Out& out);
+  static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out);
 };
 
 /// The propeller's actuation, 1 being full speed ahead; where a thrust is commanded it is that, from -1 to 1.

@@ -80,7 +80,7 @@ TEST_SUITE("tools/exolauv") {
     CHECK(flat(distributer(both, "dune").link) == flat(distributer(dune, "dune").link));
     CHECK(flat(distributer(both, "neptus").link) == flat(distributer(console, "neptus").link));
     CHECK(flat(distributer(both, "neptus").link) ==
-          "type udp, listen 6001, id 0x00D1, announce 127.0.0.1:30100-30104, ");
+          "type udp, listen 6001, peers 4, id 0x00D1, announce 127.0.0.1:30100-30104, ");
   }
 
   TEST_CASE("it reaches 3 m within 30 s of the command and holds it within 5 cm, through the turn too") {

@@ -45,9 +45,10 @@ struct Depth {
 
 struct Heading {
   HeadingControl::In in{};
+  HeadingControl::State state{};
   double run() {
     HeadingControl::Out out;
-    HeadingControl::run({}, every_50_ms, in, out);
+    HeadingControl::run({}, every_50_ms, in, state, out);
     return out.moment.angle;
   }
 };
@@ -189,21 +190,40 @@ TEST_SUITE("tasks/lauv_control/numbers") {
       double thrust;
       bool hard_over;
     };
-    for (const auto& [u, drive, thrust, hard_over] : {Case{-0.26, Drive::speed, 0, true},
-                                                      {-0.26, Drive::thrust, 0.1, true},
-                                                      {-0.26, Drive::thrust, -0.1, false},
-                                                      {-0.24, Drive::speed, 0, false}}) {
+    for (const auto& [u, drive, thrust, hard_over] : {Case{-0.51, Drive::speed, 0, true},
+                                                      {-0.51, Drive::thrust, 0.1, true},
+                                                      {-0.51, Drive::thrust, -0.1, false},
+                                                      {-0.49, Drive::speed, 0, false}}) {
       CAPTURE(u);
       CAPTURE(thrust);
       Depth depth;
       depth.in.motion = {.u = u};
+      depth.state.surge = u;
       depth.in.setpoint = {.drive = drive, .thrust = thrust};
       CHECK(depth.run() == (hard_over ? 25 * degree : 0.0));
       Heading heading;
       heading.in.motion = {.u = u};
+      heading.state.surge = u;
       heading.in.setpoint = {.drive = drive, .thrust = thrust};
       CHECK(heading.run() == (hard_over ? 25 * degree : 0.0));
     }
+  }
+
+  TEST_CASE("waves that move it to and fro are not what drives it astern, for seconds is") {
+    Depth depth;
+    Heading heading;
+    for (int i = 0; i < 1200; ++i) {
+      const double u = std::sin(2 * std::numbers::pi * 0.05 * i / 5);  // of waves of 1.6 m, 5 s apart
+      depth.in.motion = heading.in.motion = {.u = u};
+      REQUIRE(depth.run() == 0);
+      REQUIRE(heading.run() == 0);
+    }
+    depth.state.surge = heading.state.surge = 0;
+    depth.in.motion = heading.in.motion = {.u = -1};
+    int periods = 0;
+    for (; depth.run() == 0; ++periods) REQUIRE(heading.run() == 0);
+    CHECK(heading.run() == 25 * degree);
+    CHECK(periods * 50 == doctest::Approx(3000 * std::log(2)).epsilon(0.02).scale(0));  // ms
   }
 
   TEST_CASE("speed: a commanded thrust astern is limited, too") {

@@ -54,36 +54,39 @@ TEST_SUITE("tasks/lauv_control") {
   TEST_CASE("a turn takes the shorter way round") {
     HeadingControl::Out out;
     HeadingControl::In in;
+    HeadingControl::State state;
     in.motion.psi = 170 * degree;
     in.setpoint.heading = -170 * degree;
-    HeadingControl::run({}, tick, in, out);
+    HeadingControl::run({}, tick, in, state, out);
     CHECK(out.moment.angle > 0);  // to starboard, through south
     in.setpoint.heading = 150 * degree;
-    HeadingControl::run({}, tick, in, out);
+    HeadingControl::run({}, tick, in, state, out);
     CHECK(out.moment.angle < 0);
   }
 
   TEST_CASE("a commanded rate turns whatever the heading") {
     HeadingControl::Out out;
     HeadingControl::In in;
+    HeadingControl::State state;
     in.setpoint = {.heading = -1, .turn = Turn::rate, .rate = 0.1};
-    HeadingControl::run({}, tick, in, out);
+    HeadingControl::run({}, tick, in, state, out);
     CHECK(out.moment.angle == doctest::Approx(HeadingControl::Param{}.rate_kp * 0.1));
     in.motion.r = 0.1;
-    HeadingControl::run({}, tick, in, out);
+    HeadingControl::run({}, tick, in, state, out);
     CHECK(out.moment.angle == 0);
     in.setpoint.rate = 10;
     in.motion.r = HeadingControl::Param{}.rate_limit;
-    HeadingControl::run({}, tick, in, out);
+    HeadingControl::run({}, tick, in, state, out);
     CHECK(out.moment.angle == 0);
   }
 
   TEST_CASE("a demand never exceeds the fins' limit") {
     HeadingControl::Out out;
     HeadingControl::In in;
+    HeadingControl::State state;
     in.setpoint.heading = 90 * degree;
     in.motion.r = -2;
-    HeadingControl::run({}, tick, in, out);
+    HeadingControl::run({}, tick, in, state, out);
     CHECK(out.moment.angle == HeadingControl::Param{}.fin_limit);
   }
 
