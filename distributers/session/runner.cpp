@@ -43,7 +43,10 @@ void add_text(std::string& all, const std::string& text) { all += (all.empty() ?
 }  // namespace
 
 Runner::Runner(Loaded loaded, RunOptions options, const OnGuard& on_guard)
-    : options_(std::move(options)), name_(loaded.files.front()->name), begun_(begin_of(options_)) {
+    : options_(std::move(options)),
+      name_(loaded.files.front()->name),
+      begun_(begin_of(options_)),
+      until_(options_.end) {
   require_runnable(options_, loaded);
   if (!options_.threads) {
     execution_.emplace(options_.execution, *loaded.graph, options_.seed, options_.words.execution);
@@ -92,7 +95,7 @@ void Runner::make_exotasks(Loaded loaded) {
   std::vector<RecordSink*> sinks = options_.sinks;
   noted_->add_to(sinks);
   if (recording_) sinks.push_back(recording_->publications());
-  RunOrigin origin = origin_of(loaded, options_.overrides, options_.seed);
+  RunOrigin origin = origin_of(loaded, options_.overrides, options_.seed, options_.fed);
   auto made = std::make_unique<GraphRun>(
       std::move(loaded),
       GraphRunOptions{.sinks = sinks,
@@ -142,18 +145,34 @@ RunOutcome Runner::run(const Attendant& attendant) {
 void Runner::begin() {
   const std::optional<int> priority = clock_ ? clock_->options().priority : options_.real_time.priority;
   if (options_.real_clock) take_priority(priority);
-  joined_->connect(options_.note);
-  if (recording_) recording_->open();
-  if (recording_ && options_.resumed != nullptr) save_in_recording(*options_.resumed);
+  connect();
   if (options_.real_clock) take_priority_above(priority);
 }
 
-void Runner::start_clock() {
-  std::vector<std::string> refusals = clock_->prepare_thread();
-  for (const std::string& refusal : exotasks_->executor().refusals())
-    if (std::find(refusals.begin(), refusals.end(), refusal) == refusals.end()) refusals.push_back(refusal);
-  for (const std::string& refusal : refusals) options_.note(refusal);
-  clock_->start();
+void Runner::connect() {
+  joined_->connect(options_.note);
+  if (recording_) recording_->open();
+  if (recording_ && options_.resumed != nullptr) save_in_recording(*options_.resumed);
+}
+
+void Runner::start() {
+  if (clock_) {
+    std::vector<std::string> refusals = clock_->prepare_thread();
+    for (const std::string& refusal : exotasks_->executor().refusals())
+      if (std::find(refusals.begin(), refusals.end(), refusal) == refusals.end()) refusals.push_back(refusal);
+    for (const std::string& refusal : refusals) options_.note(refusal);
+    clock_->start();
+  }
+  if (guard_) guard_->arm();
+}
+
+void Runner::stop(Duration until) {
+  until_ = until;
+  exotasks_->executor().close();
+  exotasks_->executor().finish();
+  joined_->disconnect();
+  if (guard_) guard_->close();
+  end_.emplace().ending = Ending::over();
 }
 
 const RunEnd& Runner::attend(const Attendant& attendant) {
@@ -162,8 +181,7 @@ const RunEnd& Runner::attend(const Attendant& attendant) {
   end_ = jarol::attend(
       attended,
       [&] {
-        if (clock_) start_clock();
-        if (guard_) guard_->arm();
+        this->start();
         start = std::chrono::steady_clock::now();
       },
       [&] {
@@ -207,7 +225,7 @@ RunOutcome Runner::finish() {
           .seconds = seconds_,
           .begun = begun_,
           .simulated = joined_->report().simulated,
-          .verdict = joined_->judge(options_.end, *end_),
+          .verdict = joined_->judge(until_, *end_),
           .true_states = end_->hangs ? std::vector<TrueState>{} : find_true_states(graph(), joined_->channels()),
           .unwritten = std::move(unwritten),
           .unsaved = saved_ != nullptr ? saved_->lost() : ""};

@@ -5,6 +5,7 @@
 
 #include "distributers/session/replayer.h"
 #include "distributers/session/runner.h"
+#include "distributers/session/session.h"
 #include "tests/distributers/all_parts.h"
 
 namespace {
@@ -13,14 +14,15 @@ using namespace std::chrono_literals;
 
 const distributers::Registries& all_built_in() { return tests::all_parts_with<>(); }
 
-Loaded load_counting() {
-  return load_graph(std::make_shared<const Source>(Source{"counting.yaml", R"(
+std::shared_ptr<const Source> counting_text() {
+  return std::make_shared<const Source>(Source{"counting.yaml", R"(
 graph: counting
 timing: {period: 10ms}
 tasks: {count: {type: Counter, wcet: 1ms}}
-)"}),
-                    all_built_in(), {}, 0);
+)"});
 }
+
+Loaded load_counting() { return load_graph(counting_text(), all_built_in(), {}, 0); }
 
 struct RecordingFile {
   RecordingFile() { std::filesystem::remove(path); }
@@ -62,6 +64,21 @@ TEST_SUITE("distributers/session/runner") {
     Replayer replayer(log, all_built_in());
     CHECK(replayer.run().comparison.evidence == Evidence::same);
     CHECK(replayer.begun() == 400ms);
+  }
+
+  TEST_CASE("a session that is stepped is recorded, too, and its replay is the same to the last value") {
+    const RecordingFile file;
+    Session session(all_built_in(), counting_text(), {.execution = "wcet", .recording = {.file = file.path}});
+    session.run_until(300ms);
+    session.run_until(1s);
+    const std::uint64_t digest = session.report().digest;
+    CHECK_FALSE(session.finish().is_negative());
+    RecordedRun log(file.path);
+    Replayer replayer(log, all_built_in());
+    const ReplayOutcome again = replayer.run();
+    CHECK(again.comparison.evidence == Evidence::same);
+    CHECK(again.run.simulated == 1s);
+    CHECK(again.run.report.digest == digest);
   }
 
   TEST_CASE("with execution times a late task stops the run, and the outcome says which") {

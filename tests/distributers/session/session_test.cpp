@@ -126,6 +126,7 @@ TEST_SUITE("distributers/session") {
                          WrongInstant);
     session.finish();
     CHECK_THROWS_WITH_AS(session.feed("a", 2.0), "the run is over: it was finished", RunOver);
+    CHECK_THROWS_WITH_AS(session.watch("*"), "the run is over: it was finished", RunOver);
     const Session other = std::move(session);
     CHECK(other.now() == 1s);
     CHECK_THROWS_WITH_AS(session.now(), "this session was moved from; use the one that it was moved to", RunOver);
