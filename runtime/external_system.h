@@ -21,6 +21,13 @@ struct LinkReport {
   std::uint64_t heard = 0;    // packets that came and counted
   std::uint64_t dropped = 0;  // what came and did not, each packet and each stretch of garbage once
 
+  /// Of a link that may have several peers at once: who they were; the first few.
+  struct Peer {
+    std::string address;
+    std::uint64_t packets = 0;  // that counted
+  };
+  std::vector<Peer> peers{};
+
   /// Who sent without being the link's peer; those beyond the first few are in `more_strangers`.
   struct Stranger {
     std::string address;

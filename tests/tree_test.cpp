@@ -157,6 +157,26 @@ TEST_SUITE("tree") {
     CHECK(wrong == "");
   }
 
+  // a walk says it as `Class::function` (`file`), the file from its own folder or from the top
+  TEST_CASE("each function that a walk through the code names is in the file that it names") {
+    const std::regex named("`([A-Za-z_:]+)`,? \\(`([a-z_/]+\\.(?:h|cpp))`");
+    std::string wrong;
+    std::size_t seen = 0;
+    for (const std::string folder : {"distributers", "runtime"}) {
+      const std::string page = text_of(folder + "/README.md");
+      for (std::sregex_iterator found(page.begin(), page.end(), named), end; found != end; ++found, ++seen) {
+        const std::string function = (*found)[1], file = (*found)[2];
+        const std::string beside = folder + "/" + file, code = text_of(fs::exists(beside) ? beside : file);
+        // defined there, or declared
+        const std::string name = file.ends_with(".cpp") ? function : function.substr(function.rfind(':') + 1);
+        if (!std::regex_search(code, std::regex("\\b" + name + "\\(")))
+          wrong += folder + "/README.md: " + function + " is not in " + file + "\n";
+      }
+    }
+    CHECK(seen == 13);
+    CHECK(wrong == "");
+  }
+
   TEST_CASE("what a page links to is there, and so are its pictures and sections") {
     const std::regex link(R"--((?:\]\(|<img src=")([^)"#: ]*)(?:#([^)" ]+))?[)"])--");
     std::string wrong;

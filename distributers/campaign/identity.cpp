@@ -1,4 +1,4 @@
-// What the results of a campaign hang on.
+// What the results of a campaign depend on.
 #include <fmt/format.h>
 
 #include <filesystem>

@@ -15,7 +15,7 @@ struct Wishes {
 /// Throws SpecError: of a variation with a value that no run can have, too.
 Campaign state_campaign(Graphs& graphs, const Wishes& wishes);
 
-/// A key and a text for each thing that the results hang on: who resumes a campaign needs the same.
+/// A key and a text for each thing that the results depend on: who resumes a campaign needs the same.
 using Identity = std::vector<std::pair<std::string, std::string>>;
 /// `program`: of the next; `files`: what was read for it, beside plugins.
 Identity identity_of(const GraphSource& of, const Graphs& graphs, const Campaign& campaign, std::uint64_t seed,

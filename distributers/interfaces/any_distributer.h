@@ -19,7 +19,8 @@ class AnyDistributer : public messages::Receiver {
   virtual const messages::MessageSet& message_set() const = 0;
 
   /// What is received from now on comes from another peer than before, as after the external system was started anew.
-  /// Where a link knows that by the sender's address, as over UDP, and for the first peer too.
+  /// Where a link knows that by the sender's address, as over UDP, and for the first peer too. Where a link has several
+  /// at once: when one comes after the last has left or is silent.
   virtual void peer_changed() = 0;
 
   /// An instant of a run; what the external system expects from time to time can be sent. Messages that arrived before

@@ -114,7 +114,7 @@ struct VehicleClass {
   // passes on what the vehicle reports and adds what a peer expects beside it; null: nothing
   std::unique_ptr<messages::Receiver> (*make_telemetry)(const Vehicle& vehicle, messages::Receiver& to) = nullptr;
   const messages::MessageDescriptor* true_state = nullptr;  // the message that reports it; null: there is none
-  // what tells those who look for systems that it can be reached at an address, as in "udp://127.0.0.1:6002"; null:
+  // what says to those who look for systems that it can be reached at an address, as in "udp://127.0.0.1:6002"; null:
   // nobody looks for it
   messages::Message (*make_announcement)(const Vehicle& vehicle, const std::string& address) = nullptr;
 };

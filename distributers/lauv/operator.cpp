@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "distributers/lauv/messages.h"
+#include "graph/math/geometry.h"
 
 namespace jarol::distributers {
 namespace {
@@ -78,8 +79,7 @@ void LauvOperator::desired_speed(const imc::DesiredSpeed& speed) {
   const bool is_new = std::exchange(wanted_speed_, speed.value) != speed.value;
   if (!percent && speed.value < 0 && is_new)
     refuse("DesiredSpeed is negative; astern it goes by % only: the propeller stops");
-  (percent ? setpoint.thrust : setpoint.speed) =
-      percent ? std::clamp(speed.value / 100, -1.0, 1.0) : std::max(speed.value, 0.0);
+  (percent ? setpoint.thrust : setpoint.speed) = percent ? limited(speed.value / 100, 1.0) : std::max(speed.value, 0.0);
   stop_astern();
 }
 

@@ -1,5 +1,4 @@
 // The operator's hand: RemoteActions of a stick, as in Neptus.
-#include <algorithm>
 #include <utility>
 
 #include "distributers/lauv/messages.h"
@@ -32,11 +31,11 @@ void LauvOperator::remote_actions(const imc::RemoteActions& message) {
   if (silent) heading_axis_ = thrust_axis_ = 0;
   if (const auto heading = actions.number("Heading")) heading_axis_ = *heading;
   tasks::Setpoint& setpoint = in.setpoint.renew();
-  setpoint.rate = std::clamp(heading_axis_ / axis_end, -1.0, 1.0) * parameters_.full_rate;
+  setpoint.rate = limited(heading_axis_ / axis_end, 1.0) * parameters_.full_rate;
   // an axis that rests leaves the thrust to the buttons
   if (const auto thrust = actions.number("Thrust"); thrust && *thrust != thrust_axis_) {
     thrust_axis_ = *thrust;
-    setpoint.thrust = std::clamp(thrust_axis_ / axis_end, -1.0, 1.0) * parameters_.full_thrust;
+    setpoint.thrust = limited(thrust_axis_ / axis_end, 1.0) * parameters_.full_thrust;
     stop_astern();
   }
   const int button = (actions.is_set("Accelerate") ? 1 : 0) - (actions.is_set("Decelerate") ? 1 : 0);
@@ -58,7 +57,7 @@ void LauvOperator::steer_by_hand(Duration instant) {
   if (button_ != 0) {
     const double change = button_ * parameters_.button_rate * seconds(instant - now_);
     double& thrust = in.setpoint.renew().thrust;
-    thrust = std::clamp(thrust + change, -parameters_.full_thrust, parameters_.full_thrust);
+    thrust = limited(thrust + change, parameters_.full_thrust);
     // once for as long as it is held
     if (thrust < 0 && !may_go_astern() && std::exchange(button_refused_, true)) thrust = 0;
     stop_astern();

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "distributers/lauv/messages.h"
 #include "distributers/lauv/operator.h"
 #include "distributers/messages/payload.h"
+#include "graph/math/euler_angles.h"
 #include "graph/math/geometry.h"
 
 namespace jarol::distributers {
@@ -266,7 +266,7 @@ void LauvOperator::move_origin(const Origin& to) {
 // As it is above the floor, not along the beam.
 double LauvOperator::altitude() const {
   if (altitude_.count < 1 || now_ - altitude_at_ > altitude_patience) return -1;
-  return altitude_.value * std::cos(motion_.theta) * std::cos(motion_.phi);
+  return vertical_part(altitude_.value, motion_.phi, motion_.theta);
 }
 
 void LauvOperator::send_state(const tasks::Motion& motion, messages::Receiver& system) const {

@@ -7,6 +7,7 @@
 
 #include "distributers/lauv/messages.h"
 #include "distributers/messages/payload.h"
+#include "graph/math/euler_angles.h"
 #include "graph/math/geometry.h"
 
 namespace jarol::distributers {
@@ -129,17 +130,14 @@ void LauvVehicle::rates(const imc::AngularVelocity& m, const messages::MessageRe
 
 // specific force: what is felt, acceleration less gravity
 void LauvVehicle::forces(const imc::Acceleration& m, const messages::MessageRef& from) {
-  constexpr double gravity = 9.81;
-  double down_x = 0, down_y = 0, down_z = 0;
+  std::array<double, 3> down_b{};
   if (!parameters_.gravity && Entities::sender_of(from) != Entities::nobody) {
     const tasks::VectorReading& at = in.instruments->attitude;
     if (at.count < 1) return;  // without it nobody knows where down is
-    down_x = -std::sin(at.y);
-    down_y = std::cos(at.y) * std::sin(at.x);
-    down_z = std::cos(at.y) * std::cos(at.x);
+    down_b = down_in_body(at.x, at.y);
   }
-  note(&Instruments::forces, parameters_.forces, from, m.x - gravity * down_x, m.y - gravity * down_y,
-       m.z - gravity * down_z);
+  note(&Instruments::forces, parameters_.forces, from, m.x - gravity * down_b[0], m.y - gravity * down_b[1],
+       m.z - gravity * down_b[2]);
 }
 
 void LauvVehicle::velocity(const imc::WaterVelocity& m, const messages::MessageRef& from) {

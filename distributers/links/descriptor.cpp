@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cerrno>
 #include <cstdint>
 #include <system_error>
@@ -59,6 +60,18 @@ Interrupter::Either Interrupter::wait_for_either(int one, int other, std::chrono
   std::array<pollfd, 3> polled{{{event_.get(), POLLIN, 0}, {one, POLLIN, 0}, {other, POLLIN, 0}}};
   if (poll_for(polled, time) <= 0) return {};
   return {polled[0].revents != 0, polled[1].revents != 0, polled[2].revents != 0};
+}
+
+Interrupter::Some Interrupter::wait_for_some(std::span<const int> descriptors, std::chrono::milliseconds time) const {
+  assert(descriptors.size() <= max_waited);
+  std::array<pollfd, max_waited + 1> polled{};
+  for (std::size_t i = 0; i < descriptors.size(); ++i) polled[i] = {descriptors[i], POLLIN, 0};
+  polled[descriptors.size()] = {event_.get(), POLLIN, 0};
+  Some some;
+  if (poll_for(std::span(polled).first(descriptors.size() + 1), time) <= 0) return some;
+  for (std::size_t i = 0; i < descriptors.size(); ++i) some.ready[i] = polled[i].revents != 0;
+  some.interrupted = polled[descriptors.size()].revents != 0;
+  return some;
 }
 
 Interrupter::Any Interrupter::wait_for_any(std::span<const int> descriptors, std::chrono::milliseconds time) const {

@@ -1,6 +1,7 @@
 // Owned file descriptors, and waiting for one of them while another thread may end the wait.
 #pragma once
 
+#include <bitset>
 #include <chrono>
 #include <cstddef>
 #include <optional>
@@ -45,6 +46,14 @@ class Interrupter {
     bool interrupted = false, one = false, other = false;
   };
   Either wait_for_either(int one, int other, std::chrono::milliseconds time) const;
+
+  /// Waits until some of several, at most `max_waited`, can be read or have failed.
+  static constexpr std::size_t max_waited = 17;
+  struct Some {
+    bool interrupted = false;
+    std::bitset<max_waited> ready{};
+  };
+  Some wait_for_some(std::span<const int> descriptors, std::chrono::milliseconds time) const;
 
   /// Waits until one of several can be read or has failed: the first of those, by its place.
   struct Any {

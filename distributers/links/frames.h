@@ -32,7 +32,7 @@ enum class FrameKind : std::uint8_t {
   begin,        // runner to vehicle: seed
   message,      // either way: a packet
   step,         // runner to vehicle: one grid step
-  sense,        // runner to vehicle: what do the sensors tell?
+  sense,        // runner to vehicle: what do the sensors report?
   sensed,       // vehicle to runner: that was all, after so many steps; what has become of it: instant, a text, or none
   no_state,     // vehicle to runner: it can't be stepped any more; a text
   busy,         // vehicle to runner: it has another; a text

@@ -29,11 +29,11 @@ Link::Link(std::unique_ptr<Transport> transport, const messages::MessageSet& set
     : set_(set),
       transport_(std::move(transport)),
       longest_(longest_packet(set)),
-      input_(make_port(options.input, Translator::peer_size + longest_)),
+      input_(make_port(options.input, longest_entry(set))),
       output_(make_port(options.output, longest_)),
       seal_(options.key ? std::make_unique<Seal>(*options.key, set.name) : nullptr),
       translator_(set, options, seal_.get(), input_),
-      reader_(set),
+      entries_(set),
       header_(*set.header),
       default_header_(*set.header),
       own_header_(*set.header),
@@ -44,7 +44,6 @@ Link::Link(std::unique_ptr<Transport> transport, const messages::MessageSet& set
     announcements_ = std::make_unique<PacketPort>(announcements, longest_);
   }
   packet_.reserve(longest_);
-  room_.resize(Translator::peer_size + longest_);
   for (const auto& [name, value] : options.header) {
     const messages::FieldDescriptor& field = find_header_field(*set.header, name, value);
     std::memcpy(static_cast<std::byte*>(header_.value()) + field.offset, &value, size_of(field.wire));
@@ -115,14 +114,10 @@ void Link::disconnect() {
 void Link::receive(messages::Receiver& receiver) {
   require_works(receiving_, "receiving");
   require_works(sending_, "sending");
-  const auto read = [&](auto& port) { return port.read(room_); };
+  const auto read = [&](auto& port) { return port.read(entries_.room()); };
   for (auto left = std::visit([](const auto& port) { return port.capacity(); }, input_); left > 0; --left) {
-    const auto length = std::visit(read, input_);
-    if (!length) return;
-    const auto packet = std::span<const std::byte>(room_).first(*length).subspan(Translator::peer_size);
-    if (reader_.read(packet) != messages::PacketError::none) continue;  // it was valid when it arrived
-    std::memcpy(&peer_, room_.data(), Translator::peer_size);
-    receiver.receive(reader_.message());
+    if (!std::visit(read, input_)) return;
+    receiver.receive(entries_.read());
   }
 }
 

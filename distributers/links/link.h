@@ -30,8 +30,9 @@ class Link {
   /// Gives the receiver the packets that have arrived, oldest first; no more than the port holds, however fast others
   /// come. Throws std::runtime_error with the cause once the transport has thrown where it receives or sends.
   void receive(messages::Receiver& receiver);
-  /// Who sent the packet that was given last: datagrams' peers are numbered from 1; 0: it came in a stream.
-  std::uint32_t peer() const { return peer_; }
+  /// Who sent the packet that was given last: datagrams' peers are numbered from 1, several at once have one number; 0:
+  /// it came in a stream.
+  std::uint32_t peer() const { return entries_.peer(); }
 
   /// The packet that `send` would make of a message now.
   std::span<const std::byte> encode(messages::MessageRef message);
@@ -98,13 +99,12 @@ class Link {
   bool connected_ = false;
 
   // of the thread that sends and receives
-  messages::PacketReader reader_;
+  EntryReader entries_;
   messages::Message header_;                    // what the link says of all that it sends
   messages::Message default_header_;            // of the set
   messages::Message own_header_;                // of a message that says something itself
   const messages::FieldDescriptor* timestamp_;  // of the header
-  std::vector<std::byte> packet_, room_;
-  std::uint32_t peer_ = 0;
+  std::vector<std::byte> packet_;
   std::uint64_t given_ = 0;
   std::uint64_t refused_ = 0;  // the output port was full
   std::uint64_t busy_ = 0;     // the sender was, when it was signalled

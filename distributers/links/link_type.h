@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "distributers/interfaces/vehicle.h"
@@ -47,6 +48,8 @@ struct LinkType {
 
   /// Keys of which it needs one at least.
   std::vector<std::string> needs_one_of{};
+  /// Keys of which it can't have both.
+  std::vector<std::pair<std::string, std::string>> not_together{};
   /// Joins vehicles only, or operators.
   bool for_vehicles = false, for_operators = false;
   /// Carries no messages, so that the distributer needs no code.

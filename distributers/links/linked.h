@@ -1,4 +1,4 @@
-// Channels on a link: an distributer speaks with a peer in another process or device, in real time.
+// An external system on a link: a distributer speaks with a peer in another process or device, in real time.
 #pragma once
 
 #include <memory>

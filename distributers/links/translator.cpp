@@ -63,7 +63,7 @@ Translator::Translator(const messages::MessageSet& set, const LinkOptions& optio
       seal_(seal),
       limits_(set, options.silence),
       order_(set),
-      entry_(peer_size + longest_packet(set)) {
+      entries_(set) {
   for (const auto& [name, value] : options.accept)
     accepted_.push_back({&find_header_field(*set.header, name, value), value, value});
   for (const auto& [name, id] : options.header)
@@ -83,7 +83,7 @@ bool Translator::take(std::span<const std::byte> bytes, std::uint32_t peer) {
 void Translator::begin_stream() {
   if (stream_) {
     stream_->give_up();
-    while (stream_->next()) write(stream_->header(), stream_->packet(), 0);
+    while (stream_->next()) write(stream_->reader(), 0);
     store(stream_->counts());
     before_ = reported_;
   }
@@ -111,13 +111,13 @@ bool Translator::is_valid_begin(std::span<const std::byte> bytes) const {
 }
 
 bool Translator::take_datagram(std::span<const std::byte> bytes, std::uint32_t peer) {
-  const PacketError packet_error = datagrams_.read(bytes);
+  const PacketError packet_error = datagrams_.check(bytes);
   if (packet_error != PacketError::none && seal_ == nullptr && Seal::is_sealed(bytes)) {
     ++counts_.sealed;
     return false;
   }
   reported_.count(packet_error, bytes.size());
-  const bool counts = packet_error == PacketError::none && write(datagrams_.header(), bytes, peer);
+  const bool counts = packet_error == PacketError::none && write(datagrams_, peer);
   store(reported_);
   return counts;
 }
@@ -135,7 +135,7 @@ bool Translator::take_stream(std::span<const std::byte> bytes) {
     std::memcpy(room.data(), bytes.data(), part);
     stream_->filled(part);
     bytes = bytes.subspan(part);
-    while (stream_->next()) valid |= write(stream_->header(), stream_->packet(), 0);
+    while (stream_->next()) valid |= write(stream_->reader(), 0);
   }
   store(stream_->counts());
   return valid;
@@ -175,7 +175,7 @@ std::atomic<std::uint64_t> Translator::Counts::*Translator::why_not(messages::Me
   return is_for_us ? nullptr : &Counts::elsewhere;
 }
 
-// DUNE sends what its tasks tell each other, as which entity is which, addressed to its own system.
+// DUNE sends what its tasks send each other, as which entity is which, addressed to its own system.
 bool Translator::is_to_itself(messages::MessageRef header) const {
   const auto* const value = static_cast<const std::byte*>(header.value);
   const messages::FieldDescriptor& to = *destination_->field;
@@ -183,7 +183,8 @@ bool Translator::is_to_itself(messages::MessageRef header) const {
 }
 
 // False: it does not count, as from another sender than the one that does.
-bool Translator::write(messages::MessageRef header, std::span<const std::byte> packet, std::uint32_t peer) {
+bool Translator::write(const messages::PacketReader& packet, std::uint32_t peer) {
+  const messages::MessageRef header = packet.header();
   if (const auto count = why_not(header); count != nullptr) {
     ++(counts_.*count);
     return false;
@@ -194,9 +195,7 @@ bool Translator::write(messages::MessageRef header, std::span<const std::byte> p
     return false;
   }
   if (order_.is_late(header, peer)) ++counts_.late;
-  std::memcpy(entry_.data(), &peer, peer_size);
-  std::memcpy(entry_.data() + peer_size, packet.data(), packet.size());
-  const auto entry = std::span(entry_).first(peer_size + packet.size());
+  const auto entry = entries_.write(packet, peer);
   if (!std::visit([&](auto& port) { return port.write(entry); }, input_)) ++counts_.refused;
   return true;
 }

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "distributers/links/entries.h"
 #include "distributers/links/link_options.h"
 #include "distributers/links/seal.h"
 #include "distributers/links/stamp_limits.h"
@@ -32,10 +33,7 @@ std::size_t longest_packet(const messages::MessageSet& set);
 
 class Translator : public ByteSink {
  public:
-  /// In the input port the number of its peer goes before a packet.
-  static constexpr std::size_t peer_size = sizeof(std::uint32_t);
-
-  /// `seal`: with which packets come, or null.
+  /// `seal`: with which packets come, or null. The port has room for entries of the set.
   Translator(const messages::MessageSet& set, const LinkOptions& options, Seal* seal, PacketPorts& input);
 
   bool take(std::span<const std::byte> bytes, std::uint32_t peer) override;
@@ -60,7 +58,7 @@ class Translator : public ByteSink {
   bool take_sealed(std::span<const std::byte> bytes, std::uint32_t peer);
   bool take_sealed_stream(std::span<const std::byte> bytes);
   bool is_to_itself(messages::MessageRef header) const;
-  bool write(messages::MessageRef header, std::span<const std::byte> packet, std::uint32_t peer);
+  bool write(const messages::PacketReader& packet, std::uint32_t peer);
   void store(const messages::PacketCounts& now);
 
   // read by other threads
@@ -85,7 +83,7 @@ class Translator : public ByteSink {
   std::vector<std::byte> answers_;  // to what was taken last
   StampLimits limits_;
   StampOrder order_;
-  std::vector<std::byte> entry_;
+  EntryWriter entries_;
   std::vector<Accepted> accepted_;
   std::optional<Accepted> destination_;                // this system, or any
   const messages::FieldDescriptor* sender_ = nullptr;  // where there is a destination

@@ -19,8 +19,8 @@ namespace jarol::distributers {
 class ByteSink {
  public:
   virtual ~ByteSink() = default;
-  /// One datagram of the peer of that number, or the next piece of a stream, whose peers have none. True if there was
-  /// anything valid in it: its sender is the peer.
+  /// One datagram of the peer of that number, or the next piece of a stream, whose peers have none; several at once
+  /// have one number. True if there was anything valid in it: its sender is the peer, or one of them.
   virtual bool take(std::span<const std::byte> bytes, std::uint32_t peer = 0) = 0;
   /// What has to go at once to the sender of what was taken last, or nothing.
   virtual std::span<const std::byte> answer() { return {}; }

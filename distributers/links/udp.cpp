@@ -1,5 +1,6 @@
 #include "distributers/links/udp.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -58,23 +59,6 @@ void set_option(const Descriptor& socket, int option, int value) {
   setsockopt(socket.get(), SOL_SOCKET, option, &value, sizeof value);
 }
 
-// A socket at the same port as another, to which only that peer's datagrams go. The port is shared with it alone.
-Descriptor connect_beside(const Descriptor& door, const Address& peer) {
-  sockaddr_storage storage{};
-  socklen_t size = sizeof storage;
-  if (getsockname(door.get(), reinterpret_cast<sockaddr*>(&storage), &size) != 0) return {};
-  Descriptor made(socket(peer.family(), SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-  if (!made) return {};
-  set_option(door, SO_REUSEADDR, 1);
-  set_option(made, SO_REUSEADDR, 1);
-  const bool there = bind(made.get(), reinterpret_cast<const sockaddr*>(&storage), size) == 0 &&
-                     connect(made.get(), peer.get(), peer.size()) == 0;
-  set_option(door, SO_REUSEADDR, 0);
-  set_option(made, SO_REUSEADDR, 0);
-  set_option(made, SO_RXQ_OVFL, 1);
-  return there ? std::move(made) : Descriptor();
-}
-
 }  // namespace
 
 std::string UdpTransport::text() const {
@@ -102,44 +86,78 @@ void UdpTransport::open() {
   if (!made || !bind_with_patience(made.get(), listen_))
     throw std::runtime_error("can't listen at " + text() + ": " + std::strerror(errno));
   set_option(made, SO_RXQ_OVFL, 1);
-  door_ = {std::move(made), 0};
+  door_.socket = std::move(made);
+  door_.overflown = 0;
   ownership_.begin(Ownership::Clock::now());
   strangers_in_row_ = 0;
-  peer_closed_ = false;
   if (named_peer_)
-    associate(named_peer_);
+    associate(0, named_peer_);
   else if (holder != nullptr)
     holder->hold(door_.socket.get(), {});
 }
 
-// Under peer_mutex_, once anything can be sent.
-void UdpTransport::associate(const Address& peer) {
-  Descriptor made = connect_beside(door_.socket, peer);
-  peer_ = peer;
-  peer_socket_ = {std::move(made), 0};
-  ++counts.connected;
-  if (holder != nullptr) holder->hold(door_.socket.get(), peer_);
+// A socket at the same port as the door, to which only that peer's datagrams go. The port is shared with nobody else.
+Descriptor UdpTransport::connect_beside(const Address& peer) {
+  sockaddr_storage storage{};
+  socklen_t size = sizeof storage;
+  if (getsockname(door_.socket.get(), reinterpret_cast<sockaddr*>(&storage), &size) != 0) return {};
+  Descriptor made(socket(peer.family(), SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!made) return {};
+  const auto share_port = [&](int shared) {
+    set_option(made, SO_REUSEADDR, shared);
+    set_option(door_.socket, SO_REUSEADDR, shared);
+    for (const Peer& other : peers_)
+      if (other.own.socket) set_option(other.own.socket, SO_REUSEADDR, shared);
+  };
+  share_port(1);
+  const bool there = bind(made.get(), reinterpret_cast<const sockaddr*>(&storage), size) == 0 &&
+                     connect(made.get(), peer.get(), peer.size()) == 0;
+  share_port(0);
+  set_option(made, SO_RXQ_OVFL, 1);
+  return there ? std::move(made) : Descriptor();
 }
 
-void UdpTransport::forget_peer() {
-  const std::lock_guard lock(peer_mutex_);
-  peer_ = {};
-  peer_socket_.socket.close();
+// Under peers_mutex_, once anything can be sent.
+void UdpTransport::associate(std::size_t place, const Address& peer) {
+  forget(peers_[place]);
+  peers_[place].own.socket = connect_beside(peer);
+  peers_[place].address = peer;
+  ++counts.connected;
+  if (holder != nullptr) holder->hold(door_.socket.get(), peer);
+}
+
+// Likewise.
+void UdpTransport::forget(Peer& peer) {
+  peer.address = {};
+  peer.own.socket.close();
+  peer.own.overflown = 0;
+  peer.own.refused = false;
+}
+
+bool UdpTransport::have_sockets() const {
+  return ownership_.is_owned() && std::all_of(peers_.begin(), peers_.end(), [](const Peer& peer) {
+           return bool(peer.own.socket) == bool(peer.address);
+         });
 }
 
 void UdpTransport::receive(const Interrupter& interrupter, ByteSink& sink) {
   std::array<std::byte, 65536> room;
+  std::array<int, 1 + Ownership::max_places> sockets;
   for (;;) {
-    const bool rests = peer_socket_.socket && strangers_in_row_ >= strangers_before_rest;
-    const auto ready =
-        interrupter.wait_for_either(rests ? -1 : door_.socket.get(), peer_socket_.socket.get(),
-                                    rests ? rest : (ownership_.owner() ? Ownership::look_interval : milliseconds(-1)));
-    if (ready.interrupted) return;
+    const bool rests = strangers_in_row_ >= strangers_before_rest && have_sockets();
+    sockets[0] = rests ? -1 : door_.socket.get();
+    for (std::size_t i = 0; i < peers_.size(); ++i) sockets[1 + i] = peers_[i].own.socket.get();
+    const auto [interrupted, ready] =
+        interrupter.wait_for_some(std::span(sockets).first(1 + peers_.size()),
+                                  rests ? rest : (ownership_.is_owned() ? Ownership::look_interval : milliseconds(-1)));
+    if (interrupted) return;
     ownership_.look(Ownership::Clock::now());
     if (rests) strangers_in_row_ = 0;
-    if (ready.other) receive_one(peer_socket_, sink, room);
-    if (peer_closed_.exchange(false)) leave_closed_port(sink, room);
-    if (!ready.one) continue;
+    for (std::size_t i = 0; i < peers_.size(); ++i) {
+      if (ready[1 + i]) receive_one(peers_[i].own, sink, room);
+      if (peers_[i].own.refused.exchange(false)) leave_closed_port(i, sink, room);
+    }
+    if (!ready[0]) continue;
     const std::uint64_t peers = counts.connected;
     receive_one(door_, sink, room);
     // what a new peer has sent before it had a socket of its own comes first
@@ -152,7 +170,7 @@ bool UdpTransport::receive_one(Receiving& from, ByteSink& sink, std::span<std::b
   const Datagram datagram = receive_from(from.socket.get(), room);
   if (datagram.length < 0) {
     // an error is that of a datagram sent before
-    if (errno == ECONNREFUSED) peer_closed_ = true;
+    if (errno == ECONNREFUSED) from.refused = true;
     return false;
   }
   if (datagram.overflown) {
@@ -170,51 +188,66 @@ void UdpTransport::take(std::span<const std::byte> bytes, const Address& sender,
     ownership_.count_stranger(sender);
     return;
   }
-  strangers_in_row_ = 0;
   // its number goes with the packet, for the packet may be looked at before there is an answer to it
-  const bool is_owner = ownership_.owner() && *ownership_.owner() == sender;
-  const std::uint64_t peer = counts.connected + (is_owner ? 0 : 1);
+  const bool is_owner = ownership_.is_owner(sender);
+  const std::uint32_t number = ownership_.tenure_of(sender);
   // who answers a new peer at once waits until it is known
-  std::unique_lock lock(peer_mutex_, std::defer_lock);
+  std::unique_lock lock(peers_mutex_, std::defer_lock);
   if (!is_owner) lock.lock();
-  const bool valid = sink.take(bytes, static_cast<std::uint32_t>(peer));
+  const bool valid = sink.take(bytes, number);
   if (const auto answer = sink.answer(); !answer.empty())
     sendto(door_.socket.get(), answer.data(), answer.size(), MSG_NOSIGNAL, sender.get(), sender.size());
+  if (is_owner || valid)
+    strangers_in_row_ = 0;
+  else
+    ++strangers_in_row_;
   if (!valid) return;
-  ownership_.heard(sender, Ownership::Clock::now());
-  if (!is_owner) associate(sender);
+  const std::size_t place = ownership_.heard(sender, Ownership::Clock::now());
+  if (!is_owner) associate(place, sender);
 }
 
 // A named peer may come again, and is sent to all the same. Of another what it has sent before still counts.
-void UdpTransport::leave_closed_port(ByteSink& sink, std::span<std::byte> room) {
+void UdpTransport::leave_closed_port(std::size_t place, ByteSink& sink, std::span<std::byte> room) {
   ++counts.closed;
   if (named_peer_) return;
-  while (peer_socket_.socket && receive_one(peer_socket_, sink, room)) {}
-  peer_closed_ = false;
-  ownership_.gone();
-  forget_peer();
-  if (holder != nullptr) holder->hold(door_.socket.get(), {});
+  while (peers_[place].own.socket && receive_one(peers_[place].own, sink, room)) {}
+  ownership_.gone(place);
+  const std::lock_guard lock(peers_mutex_);
+  forget(peers_[place]);
+  if (holder == nullptr) return;
+  const auto other = std::find_if(peers_.begin(), peers_.end(), [](const Peer& peer) { return bool(peer.address); });
+  holder->hold(door_.socket.get(), other == peers_.end() ? Address{} : other->address);
 }
 
+// To all; true: to one at least.
 bool UdpTransport::send(std::span<const std::byte> packet) {
-  const std::lock_guard lock(peer_mutex_);
-  const auto sent_by = [&](const Descriptor& socket) {
-    return socket && sendto(socket.get(), packet.data(), packet.size(), MSG_NOSIGNAL, peer_.get(), peer_.size()) >= 0;
-  };
-  if (peer_) {
-    if (sent_by(peer_socket_.socket)) return true;
-    const bool closed = peer_socket_.socket && errno == ECONNREFUSED;
-    if (closed) peer_closed_ = true;
-    // the error was that of a packet before; or the way to the peer is another now
-    if ((!closed || named_peer_) && sent_by(door_.socket)) return true;
+  const std::lock_guard lock(peers_mutex_);
+  std::size_t sent = 0, peers = 0;
+  for (Peer& peer : peers_) {
+    if (!peer.address) continue;
+    ++peers;
+    if (send_to(peer, packet)) ++sent;
   }
-  ++counts.unsent;
-  return false;
+  if (sent == 0 || sent < peers) ++counts.unsent;
+  return sent > 0;
+}
+
+bool UdpTransport::send_to(Peer& peer, std::span<const std::byte> packet) {
+  const auto sent_by = [&](const Descriptor& socket) {
+    const Address& to = peer.address;
+    return socket && sendto(socket.get(), packet.data(), packet.size(), MSG_NOSIGNAL, to.get(), to.size()) >= 0;
+  };
+  if (sent_by(peer.own.socket)) return true;
+  const bool closed = peer.own.socket && errno == ECONNREFUSED;
+  if (closed) peer.own.refused = true;
+  // the error was that of a packet before; or the way to the peer is another now
+  return (!closed || named_peer_) && sent_by(door_.socket);
 }
 
 void UdpTransport::close() {
   if (holder != nullptr) holder->let_go();
-  forget_peer();
+  const std::lock_guard lock(peers_mutex_);
+  for (Peer& peer : peers_) forget(peer);
   door_.socket.close();
 }
 

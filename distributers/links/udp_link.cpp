@@ -1,4 +1,5 @@
 // The link type `udp`.
+#include <algorithm>
 #include <stdexcept>
 
 #include "distributers/links/announcer.h"
@@ -10,7 +11,25 @@ namespace {
 
 struct UdpSpec : PacketLinkSpec {
   Maybe<std::string> listen, peer, announce;
+  Maybe<std::int64_t> peers;
 };
+
+constexpr std::int64_t max_peers = Ownership::max_places;
+
+// How many at once; of what is wrong one.
+std::size_t read_peers(const UdpSpec& spec, const std::string& subject, Problems& problems) {
+  if (!spec.peers) return 1;
+  const std::size_t before = problems.size();
+  const auto& [peers, where] = *spec.peers;
+  if (peers < 1 || peers > max_peers)
+    problems.add(where,
+                 subject + " has from 1 to " + std::to_string(max_peers) + " peers, not " + std::to_string(peers));
+  if (spec.peer)
+    problems.add(where, subject + " has 'peers' beside 'peer', which names the only one; leave out one of the two");
+  if (spec.key)
+    problems.add(where, subject + " has 'peers' beside 'key', which joins two ends; leave out one of the two");
+  return problems.size() > before ? 1 : static_cast<std::size_t>(peers);
+}
 
 // Beyond this machine only if the peer is there.
 Address anywhere_towards(const Address& peer) {
@@ -32,6 +51,7 @@ void require_same_family(const Located<std::string>& announce, const std::vector
 std::unique_ptr<Transport> make_udp(const UdpSpec& spec, const Yaml& yaml, const std::string& subject,
                                     Problems& problems) {
   const Address peer = read_address(spec.peer, problems);
+  const std::size_t peers = read_peers(spec, subject, problems);
   if (!spec.listen && !spec.peer) problems.add(yaml.where, subject + " needs 'listen' or 'peer', or both");
   const Address listen = spec.listen ? read_address(spec.listen, problems) : anywhere_towards(peer);
   if (listen && peer && listen.family() != peer.family())
@@ -44,7 +64,7 @@ std::unique_ptr<Transport> make_udp(const UdpSpec& spec, const Yaml& yaml, const
   try {
     const std::vector<Address> to = spec.announce ? Announcer::parse(spec.announce->value) : std::vector<Address>{};
     if (spec.announce) require_same_family(*spec.announce, to, listen, problems);
-    return std::make_unique<UdpTransport>(listen, peer, to, spec.silence_of_peer());
+    return std::make_unique<UdpTransport>(listen, peer, to, spec.silence_of_peer(), peers);
   } catch (const std::invalid_argument& error) {
     problems.add(spec.announce->where, error.what());
     return nullptr;
@@ -52,6 +72,18 @@ std::unique_ptr<Transport> make_udp(const UdpSpec& spec, const Yaml& yaml, const
 }
 
 }  // namespace
+
+std::string why_one_peer(const DistributerClass& distributer) {
+  if (distributer.is_vehicle) return "a " + distributer.name + " is one vehicle";
+  if (distributer.message_set == nullptr) return "";
+  const messages::MessageSet& set = distributer.message_set();
+  const auto has = [&](std::string_view name) {
+    return std::any_of(set.header->fields.begin(), set.header->fields.end(),
+                       [&](const messages::FieldDescriptor& field) { return field.name == name; });
+  };
+  if (has("src") && has("dst")) return "";
+  return "messages of " + std::string(set.name) + " have no addresses, by which several could be told apart";
+}
 
 LinkType udp_link() {
   LinkType type = packet_link<UdpSpec>(
@@ -61,10 +93,20 @@ LinkType udp_link() {
        key<&UdpSpec::peer>(
            "peer", Form::address,
            "address and port of the other end; default: the first that speaks validly, while it is heard"),
+       key<&UdpSpec::peers>("peers", Form::integer,
+                            "how many operators may have it at once, where messages have addresses; default 1")
+           .within(1, max_peers),
        key<&UdpSpec::announce>("announce", Form::addresses,
                                "where to announce itself, as in 127.0.0.1:30100-30104; default: nowhere")},
       make_udp);
   type.needs_one_of = {"listen", "peer"};
+  type.not_together = {{"peers", "peer"}, {"peers", "key"}};
+  type.make_external_systems = [type](const LinkRequest& request, Problems& problems) {
+    const Yaml* const peers = request.yaml().find("peers");
+    if (const std::string why = why_one_peer(*request.whose().distributer_class); peers != nullptr && !why.empty())
+      problems.add(peers->where, request.subject() + " has 'peers', but " + why + "; leave it out");
+    return make_packet_channels(type, request, problems);
+  };
   return type;
 }
 

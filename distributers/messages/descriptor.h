@@ -6,6 +6,7 @@
 #include <new>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
 namespace jarol::messages {
 
@@ -74,6 +75,7 @@ struct MessageDescriptor {
 
   std::size_t size = 0;  // of the struct
   std::size_t alignment = 1;
+  bool flat = false;                      // it has no memory beside it: its bytes are all of it
   void (*construct)(void* to) = nullptr;  // default message into raw memory
   void (*assign)(void* to, const void* from) = nullptr;
   void (*destroy)(void* message) = nullptr;
@@ -84,6 +86,7 @@ template <class M>
 constexpr MessageDescriptor descriptor_of(std::string_view name, std::uint32_t id, std::size_t index,
                                           std::string_view text, std::int64_t wire_size,
                                           std::span<const FieldDescriptor> fields, const MessageSet& (*set)()) {
+  static_assert(alignof(M) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
   return {name,
           id,
           index,
@@ -93,6 +96,7 @@ constexpr MessageDescriptor descriptor_of(std::string_view name, std::uint32_t i
           set,
           sizeof(M),
           alignof(M),
+          std::is_trivially_copyable_v<M>,
           [](void* to) { new (to) M{}; },
           [](void* to, const void* from) { *static_cast<M*>(to) = *static_cast<const M*>(from); },
           [](void* message) { static_cast<M*>(message)->~M(); }};

@@ -67,6 +67,16 @@ Announced read_header(const MessageSet& set, const std::byte* header, ByteOrder 
           header_field(set, set.size_field, header, order)};
 }
 
+namespace {
+
+// The parts of a packet where they lie.
+struct Frame {
+  ByteOrder order = ByteOrder::little;
+  std::uint32_t id = 0;
+  std::span<const std::byte> header, payload;
+};
+
+// Looks at all but the fields. With a wrong checksum the frame is there all the same.
 PacketError read_frame(const MessageSet& set, std::span<const std::byte> bytes, Frame& to, std::string* why) {
   const std::size_t around = set.header_size() + set.footer_size();
   if (bytes.size() < around)
@@ -107,10 +117,13 @@ PacketError read_frame(const MessageSet& set, std::span<const std::byte> bytes, 
   });
 }
 
+}  // namespace
+
 PacketReader::PacketReader(const MessageSet& set) : set_(set), header_(*set.header), kept_(set.messages.size()) {}
 
-PacketError PacketReader::read(std::span<const std::byte> bytes, std::string* why) {
+PacketError PacketReader::check(std::span<const std::byte> bytes, std::string* why) {
   message_ = {};
+  descriptor_ = nullptr;
   Frame frame;
   const PacketError packet_error = read_frame(set_, bytes, frame, why);
   if (packet_error != PacketError::none && packet_error != PacketError::checksum) return packet_error;
@@ -119,15 +132,29 @@ PacketError PacketReader::read(std::span<const std::byte> bytes, std::string* wh
   if (descriptor == nullptr)
     return fail(PacketError::unknown_id, why,
                 [&] { return "message id " + std::to_string(frame.id) + " is not in set " + std::string(set_.name); });
-  Message& kept = kept_[descriptor->index];
-  if (kept.descriptor() == nullptr) kept = Message(*descriptor);
   order_ = frame.order;
+  payload_ = frame.payload;
   std::string* const more = packet_error == PacketError::none ? why : nullptr;  // of two flaws the checksum says more
-  if (!read_payload(*set_.header, frame.order, frame.header, header_.value(), more) ||
-      !read_payload(*descriptor, frame.order, frame.payload, kept.value(), more))
+  if (!read_payload(*set_.header, order_, frame.header, header_.value(), more) ||
+      !check_payload(*descriptor, order_, payload_, more))
     return packet_error == PacketError::none ? PacketError::payload : packet_error;
+  descriptor_ = descriptor;
+  return packet_error;
+}
+
+MessageRef PacketReader::take() {
+  if (descriptor_ == nullptr) return message_;
+  Message& kept = kept_[descriptor_->index];
+  if (kept.descriptor() == nullptr) kept = Message(*descriptor_);
+  static_cast<void>(read_payload(*descriptor_, order_, payload_, kept.value()));  // as it was checked
   message_ = kept;
   message_.header = header_.value();
+  return message_;
+}
+
+PacketError PacketReader::read(std::span<const std::byte> bytes, std::string* why) {
+  const PacketError packet_error = check(bytes, why);
+  take();
   return packet_error;
 }
 

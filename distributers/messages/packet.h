@@ -19,17 +19,6 @@ constexpr std::size_t packet_error_count = 7;
 /// In words, as in "bad checksum".
 std::string_view name_of(PacketError packet_error);
 
-/// The parts of a packet where they lie.
-struct Frame {
-  ByteOrder order = ByteOrder::little;
-  std::uint32_t id = 0;
-  std::span<const std::byte> header, payload;
-};
-
-/// Looks at bytes that should be one packet and nothing else, but not at its fields. With a wrong checksum the frame is
-/// told all the same. `why`, where given, says what is wrong.
-PacketError read_frame(const MessageSet& set, std::span<const std::byte> bytes, Frame& to, std::string* why = nullptr);
-
 /// The byte order that the sync at the begin of the bytes reports, if it is one; there are bytes enough for it.
 std::optional<ByteOrder> order_of(const MessageSet& set, const std::byte* bytes);
 
@@ -49,18 +38,28 @@ class PacketReader {
   explicit PacketReader(const MessageSet& set);
 
   /// Reads bytes that should be one packet and nothing else. With a wrong checksum, header and message are there all
-  /// the same, so that they can be shown, if they could be read; with any other flaw the message has no form.
+  /// the same, so that they can be shown, if they could be read; with any other flaw the message has no form. `why`,
+  /// where given, says what is wrong.
   PacketError read(std::span<const std::byte> bytes, std::string* why = nullptr);
+
+  /// The first half of that: the same answer, but of the message only form and payload are there.
+  PacketError check(std::span<const std::byte> bytes, std::string* why = nullptr);
+  /// The other half, while the bytes that were checked are there.
+  MessageRef take();
 
   const MessageSet& set() const { return set_; }
   ByteOrder order() const { return order_; }
   MessageRef header() const { return header_; }
   MessageRef message() const { return message_; }
+  const MessageDescriptor* descriptor() const { return descriptor_; }
+  std::span<const std::byte> payload() const { return payload_; }
 
  private:
   const MessageSet& set_;
   ByteOrder order_ = ByteOrder::little;
   Message header_;
+  const MessageDescriptor* descriptor_ = nullptr;
+  std::span<const std::byte> payload_;
   std::vector<Message> kept_;  // of the form of the same index in the set
   MessageRef message_;
 };

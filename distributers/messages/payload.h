@@ -20,6 +20,10 @@ constexpr int max_nested = 16;
 bool read_payload(const MessageDescriptor& descriptor, ByteOrder order, std::span<const std::byte> payload,
                   void* message, std::string* why = nullptr);
 
+/// Would `read_payload` read it? It takes nothing out, and needs no memory.
+bool check_payload(const MessageDescriptor& descriptor, ByteOrder order, std::span<const std::byte> payload,
+                   std::string* why = nullptr);
+
 /// Appends the payload of the message. False if it can't be written: then `to` is as it was.
 bool write_payload(MessageRef message, ByteOrder order, std::vector<std::byte>& to, std::string* why = nullptr);
 

@@ -36,7 +36,7 @@ class PayloadCursor {
   /// The bytes that were stepped over; null if so many are not there.
   Byte* take(std::size_t bytes);
 
-  /// Says that `field` of `descriptor` is wrong as `why` tells; always false.
+  /// Says that `field` of `descriptor` is wrong as `why` says; always false.
   bool fail_in(const MessageDescriptor& descriptor, const FieldDescriptor& field);
 
  private:
@@ -52,7 +52,7 @@ class PayloadCursor {
 extern template class PayloadCursor<false>;
 extern template class PayloadCursor<true>;
 
-/// May a message of that form, or of none, stand in that field? If not, `why` tells.
+/// May a message of that form, or of none, stand in that field? If not, `why` says.
 bool may_hold(const FieldDescriptor& field, const MessageDescriptor* descriptor, std::uint64_t id, std::string* why);
 
 bool fail_too_deep(std::string* why);

@@ -85,17 +85,28 @@ class Reader {
   std::string* const why_;
 };
 
+// Fields have to take all of the payload.
+bool is_all(const MessageDescriptor& descriptor, std::size_t payload, std::size_t left, std::string* why) {
+  if (left == 0) return true;
+  if (why != nullptr)
+    *why = std::string(descriptor.name) + " has " + std::to_string(payload - left) + " bytes of fields, but " +
+           std::to_string(payload) + " of payload";
+  return false;
+}
+
 }  // namespace
 
 bool read_payload(const MessageDescriptor& descriptor, ByteOrder order, std::span<const std::byte> payload,
                   void* message, std::string* why) {
   Reader reader(descriptor.set(), order, payload, why);
-  if (!reader.read_fields(descriptor, message)) return false;
-  if (reader.left() == 0) return true;
-  if (why != nullptr)
-    *why = std::string(descriptor.name) + " has " + std::to_string(payload.size() - reader.left()) +
-           " bytes of fields, but " + std::to_string(payload.size()) + " of payload";
-  return false;
+  return reader.read_fields(descriptor, message) && is_all(descriptor, payload.size(), reader.left(), why);
+}
+
+bool check_payload(const MessageDescriptor& descriptor, ByteOrder order, std::span<const std::byte> payload,
+                   std::string* why) {
+  if (descriptor.wire_size == static_cast<std::int64_t>(payload.size())) return true;
+  PayloadCursor<false> cursor(descriptor.set(), order, payload, why);
+  return cursor.over_fields(descriptor, 0) && is_all(descriptor, payload.size(), cursor.left(), why);
 }
 
 bool take_inline(const MessageSet& set, const InlineMessage& from, Message& to, std::string* why) {

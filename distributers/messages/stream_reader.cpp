@@ -36,7 +36,7 @@ std::span<std::byte> StreamReader::room() {
 bool StreamReader::next() {
   std::size_t size = 0;
   while (find_packet(size)) {
-    const PacketError packet_error = reader_.read(bytes().first(size));
+    const PacketError packet_error = reader_.check(bytes().first(size));
     if (packet_error == PacketError::checksum) {
       drop_candidate(packet_error, size);
       continue;

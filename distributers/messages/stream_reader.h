@@ -44,7 +44,9 @@ class StreamReader {
   std::span<const std::byte> packet() const { return packet_; }
   ByteOrder order() const { return reader_.order(); }
   MessageRef header() const { return reader_.header(); }
-  MessageRef message() const { return reader_.message(); }
+  MessageRef message() { return reader_.take(); }
+  /// Its form and what it consists of, for who takes it out elsewhere.
+  const PacketReader& reader() const { return reader_; }
 
   /// What has not come of a packet that has begun will not come: the stream has ended. Then `next` looks
   /// through what there is.

@@ -58,7 +58,7 @@ class GraphRun : private OwnedGraph, public JoinedGraph {
 
   /// Before it is saved or goes on from what was: what it is made of.
   void set_origin(RunOrigin origin) { origin_ = std::make_shared<const RunOrigin>(std::move(origin)); }
-  /// What the run is, on the virtual clock, between two pieces of it; who looks on has got all that was published.
+  /// What the run is, on the virtual clock, between two pieces of it; sinks have got all that was published.
   /// Throws CheckpointError.
   Checkpoint checkpoint();
   /// Throws CheckpointError where it is of another origin; parameters of tasks may differ.

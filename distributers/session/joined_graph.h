@@ -1,4 +1,4 @@
-// A graph joined to its world while it runs, whatever executes it: who looks on, its links, and the verdict on it.
+// A graph joined to its world while it runs, whatever executes it: its sinks, its links, and the verdict on it.
 #pragma once
 
 #include <memory>
@@ -47,7 +47,7 @@ class JoinedGraph {
   void disconnect(RunEnd& end) { finish_links(*linked_, graph_, end); }
   std::vector<LinkReport> link_reports() const { return linked_->reports(); }
 
-  /// After the last instant: who looks on has got all, but for sinks that have failed: throws what these threw.
+  /// After the last instant: sinks have got all, but for those that have failed: throws what these threw.
   void close_sinks() { show_mishaps_and_close(sinks_, graph_, channels_, report(), rest()); }
 
   /// Of a run that was to go on `until` and ended like that.

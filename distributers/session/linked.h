@@ -15,7 +15,7 @@ namespace jarol {
 
 std::vector<ExternalSystem*> pointers_to(const std::vector<std::unique_ptr<ExternalSystem>>& all);
 
-/// Channels that are on links run while this lives.
+/// External systems that are on links run while this lives.
 class Linked {
  public:
   /// Throws std::runtime_error if there is no way to an external system.

@@ -3,6 +3,7 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <span>
 #include <utility>
@@ -72,7 +73,7 @@ std::vector<expect::Condition> expectations_of(const Loaded& loaded,
   return all;
 }
 
-// What hangs on where the vehicles are.
+// What depends on where the vehicles are.
 void add_conditions(Loaded& loaded, Problems& problems, const std::vector<std::unique_ptr<ExternalSystem>>& missions,
                     const RecordingHeader* recorded = nullptr) {
   loaded.true_values = true_values_of(loaded, recorded);
@@ -85,8 +86,11 @@ void add_conditions(Loaded& loaded, Problems& problems, const std::vector<std::u
 std::unique_ptr<distributers::Registries> with_plugins_of(const GraphText& text, const distributers::Registries& known,
                                                           const NoteSink& note, Problems& problems) {
   if (!known.plugins.empty()) return std::make_unique<distributers::Registries>(known);
-  for (const Located<std::string>& plugin : text.plugins)
-    note("loads plugin '" + printable(plugin_path(text.where, plugin.value)) + "'");
+  for (const Located<std::string>& plugin : text.plugins) {
+    const std::string path = plugin_path(text.where, plugin.value);
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path, error)) note("loads plugin '" + printable(path) + "'");
+  }
   PluginParts parts{known.graph, {}};
   std::vector<LoadedPlugin> plugins = load_plugins(
       text, parts, [&](const Extension& extension) { return distributers::has(known, extension); }, problems);

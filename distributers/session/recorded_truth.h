@@ -11,8 +11,8 @@
 
 namespace jarol {
 
-/// Channels that give each `in` communicator what it took, as replayed_channels, and beside that the true values of
-/// the vehicles of which `loaded` knows them from the recording. Graph and recording outlive them.
+/// External systems that give each `in` communicator what it took, as replayed_channels, and beside that the true
+/// values of the vehicles of which `loaded` knows them from the recording. Graph and recording outlive them.
 std::vector<std::unique_ptr<ExternalSystem>> recorded_channels(const Loaded& loaded, RecordedRun& run);
 
 /// By distributer the type of the true values that `loaded` knows; null: none.

@@ -1,4 +1,4 @@
-// A run of a graph from begin to end, as `jarol run` makes it: clock, guardian, recording, checkpoints, who looks on,
+// A run of a graph from begin to end, as `jarol run` makes it: clock, guardian, recording, checkpoints, sinks,
 // links, and the outcome.
 //
 //   jarol::Runner runner(std::move(loaded), {.end = 30s, .recording = {.file = "dive.mcap"}});

@@ -1,4 +1,4 @@
-// What a vehicle's own decisions told the outside during a run, in words: that it lands, comes up, and why.
+// What a vehicle's own decisions reported to the outside during a run, in words: that it lands, comes up, and why.
 #pragma once
 
 #include <array>

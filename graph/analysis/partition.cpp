@@ -79,7 +79,7 @@ class Assigner {
   Partition assign() {
     const std::vector<Together> connected = groups_of(system_, true), alone = groups_of(system_, false);
     Partition partition;
-    // by utilisation alone, and what does not fit where it does least harm: what a "no" is told of
+    // by utilisation alone, and what does not fit where it does least harm: what a "no" reports
     partition.core = by_utilisation(connected).of_tasks(system_.models.size());
     if (holds(partition.core)) return found(partition.core);
     for (const auto& [groups, spread] :

@@ -65,7 +65,7 @@ class YamlEvents {
 
   std::shared_ptr<const Source> source_;
   Problems& problems_;
-  std::size_t begin_;  // after the mark that tells the order of bytes
+  std::size_t begin_;  // after the mark of the order of bytes
   Places places_;
   std::unique_ptr<State> state_;
   std::size_t bytes_ = 0;

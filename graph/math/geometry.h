@@ -11,6 +11,9 @@ inline constexpr double pi = 3.14159265358979323846;
 /// In rad.
 inline constexpr double degree = pi / 180.0;
 
+/// Standard gravity to two places (m/s^2): what all laws and simulated vehicles start from.
+inline constexpr double gravity = 9.81;
+
 /// The same from -limit to limit.
 inline double limited(double value, double limit) { return std::clamp(value, -limit, limit); }
 

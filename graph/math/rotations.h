@@ -2,7 +2,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
+
+#include "graph/math/euler_angles.h"
 
 namespace jarol {
 
@@ -15,6 +18,10 @@ inline Eigen::Quaterniond quaternion_of(double roll, double pitch, double yaw) {
 /// The same as a matrix, R_nb.
 inline Eigen::Matrix3d rotation_of(double roll, double pitch, double yaw) {
   return quaternion_of(roll, pitch, yaw).toRotationMatrix();
+}
+
+inline EulerAngles euler_angles_of(const Eigen::Matrix3d& R_nb) {
+  return euler_angles_of(std::array<Eigen::RowVector3d, 3>{R_nb.row(0), R_nb.row(1), R_nb.row(2)});
 }
 
 /// Beyond this pitch, where cos(pitch) is 0.1, laws that integrate the rates below take it for this one.

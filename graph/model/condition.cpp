@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "graph/math/geometry.h"
 
 namespace jarol::expect {
 
@@ -16,7 +17,7 @@ double calc_value(const Value& value, const std::vector<double>& signals) {
       case Step::Kind::constant: stack[top++] = step.constant; break;
       case Step::Kind::negate: stack[top - 1] = -stack[top - 1]; break;
       case Step::Kind::absolute: stack[top - 1] = std::abs(stack[top - 1]); break;
-      case Step::Kind::wrap: stack[top - 1] = std::remainder(stack[top - 1], 2.0 * std::numbers::pi); break;
+      case Step::Kind::wrap: stack[top - 1] = wrapped(stack[top - 1]); break;
       case Step::Kind::add: --top, stack[top - 1] += stack[top]; break;
       case Step::Kind::subtract: --top, stack[top - 1] -= stack[top]; break;
     }

@@ -18,7 +18,7 @@ std::vector<std::vector<std::size_t>> successors_of(const Graph& graph) {
   return successors;
 }
 
-// One cycle among the tasks that could not be ordered, beginning with the least of them.
+// One cycle among the tasks that could not be ordered, beginning with the first of them.
 std::vector<std::size_t> find_cycle(const std::vector<std::vector<std::size_t>>& successors,
                                     const std::vector<bool>& ordered) {
   // every unordered task that has an unordered predecessor chain leads back: walk predecessors until one repeats
@@ -89,7 +89,7 @@ void set_deadlines(Graph& graph, const std::vector<Maybe<Duration>>& declared, P
   std::vector<std::vector<const Connection*>> outgoing(graph.tasks.size());
   for (const Connection& c : graph.connections)
     if (c.from.kind == End::Kind::task) outgoing[c.from.index].push_back(&c);
-  // readers first: a deadline hangs on those of the tasks that latch at the same release
+  // readers first: a deadline depends on those of the tasks that latch at the same release
   for (auto at = graph.order.rbegin(); at != graph.order.rend(); ++at) {
     Task& task = graph.tasks[*at];
     Duration deadline = task.let.value_or(task.period);

@@ -45,6 +45,11 @@ Archive::Bytes first_bytes(const std::string& path, std::uintmax_t max) {
 
 }  // namespace
 
+const RunOrigin& Checkpoint::origin() const {
+  if (origin_ == nullptr) throw CheckpointError("has nothing in it: it was moved elsewhere");
+  return *origin_;
+}
+
 const Archive::Bytes* Checkpoint::find(std::string_view part) const {
   const auto found = std::find_if(parts_.begin(), parts_.end(), [&](const auto& each) { return each.first == part; });
   return found == parts_.end() ? nullptr : &found->second;
@@ -53,7 +58,7 @@ const Archive::Bytes* Checkpoint::find(std::string_view part) const {
 Archive::Bytes Checkpoint::to_bytes() const {
   Archive::Bytes bytes(head);
   Archive archive = Archive::to(bytes);
-  RunOrigin origin = *origin_;
+  RunOrigin origin = this->origin();
   Duration instant = instant_;
   auto parts = static_cast<std::uint64_t>(parts_.size());
   archive(origin, instant, parts);

@@ -23,8 +23,8 @@ class Checkpoint {
   Checkpoint(std::shared_ptr<const RunOrigin> origin, Duration instant)
       : origin_(std::move(origin)), instant_(instant) {}
 
-  /// What it is of.
-  const RunOrigin& origin() const { return *origin_; }
+  /// What it is of. Throws CheckpointError where it was moved elsewhere.
+  const RunOrigin& origin() const;
   /// The instants before it were run.
   Duration instant() const { return instant_; }
 

@@ -24,7 +24,7 @@ enum class Truth { none, of_conditions, all };
 
 class Communicators {
  public:
-  /// One Channels per distributer, in the order of the graph. The run outlives it.
+  /// One ExternalSystem per distributer, in the order of the graph. The run outlives it.
   Communicators(Run& run, std::vector<std::unique_ptr<ExternalSystem>> channels, Truth truth,
                 std::span<const expect::Condition> measured = {});
 

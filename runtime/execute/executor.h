@@ -44,7 +44,7 @@ struct ExecutorOptions {
 
 class Executor {
  public:
-  /// One Channels per distributer of the graph, in its order. Graph and recorder outlive the executor.
+  /// One ExternalSystem per distributer of the graph, in its order. Graph and recorder outlive the executor.
   Executor(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSystem>> channels, const ExecutorOptions& options = {});
 
   /// Before the first instant: the run has other parameters of that task than its graph; a value of their type.

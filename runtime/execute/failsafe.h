@@ -1,4 +1,4 @@
-// Time-outs of external systems while a graph runs: is one silent, and what do its actuators get then? It hangs on
+// Time-outs of external systems while a graph runs: is one silent, and what do its actuators get then? It depends on
 // what `in` communicators took at which logical instant, on nothing else.
 #pragma once
 

@@ -28,7 +28,8 @@ void MetricFold::hold_step(Duration from, Duration, double value) {
   const double part = height == 0 ? 1 : (value - first_) / height;
   if (!at_tenth_ && part >= 0.1) at_tenth_ = from;
   if (!at_nine_tenths_ && part >= 0.9) at_nine_tenths_ = from;
-  beyond_ = std::max(beyond_, height < 0 ? metric_.target - value : value - metric_.target);
+  const double over = height < 0 ? metric_.target - value : value - metric_.target;
+  beyond_ = over > beyond_ || std::isnan(over) ? over : beyond_;
   if (!(std::abs(value - metric_.target) <= metric_.band)) {
     settled_.reset();
   } else if (!settled_) {

@@ -38,7 +38,7 @@ struct ThreadsReport {
 
 class JarolCore {
  public:
-  /// One Channels per distributer of the graph, in its order. The graph outlives the core. Throws
+  /// One ExternalSystem per distributer of the graph, in its order. The graph outlives the core. Throws
   /// std::invalid_argument for a graph whose periods can't be counted in those of the sensor thread, or with deep
   /// values between threads. `recorder`: gets what is published, and true values for the conditions of the graph; or
   /// null.

@@ -71,7 +71,7 @@ class Components {
   std::vector<std::size_t> index_, low_, component_;  // per task
   std::vector<std::size_t> open_;                     // visited, their component not closed
   std::vector<Step> path_;
-  std::vector<std::size_t> least_, outside_;  // per component: its least task, and the least of those it waits for
+  std::vector<std::size_t> least_, outside_;  // per component: its first task, and the first of those it waits for
 };
 
 class Ordering {

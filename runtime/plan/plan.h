@@ -3,7 +3,7 @@
 //
 // It holds no table over the hyperperiod. All that acts with one period from one first instant forms a group; at an
 // instant the groups that are due run step by step, and within the last step stage by stage: a task that is fed by
-// another group without a LET stands in a later stage than its producer. Cost and memory hang on the number of tasks
+// another group without a LET stands in a later stage than its producer. Cost and memory depend on the number of tasks
 // and connections, never on how their periods relate.
 #pragma once
 

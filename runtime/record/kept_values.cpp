@@ -56,7 +56,7 @@ std::vector<KeptValues::Published> ComparedValues::next_of_run(Duration instant)
   return all;
 }
 
-// Who publishes first within an instant hangs on the number of workers.
+// Who publishes first within an instant depends on the number of workers.
 void ComparedValues::compare_instant(Duration instant) {
   std::vector<Published> was = next_of_run(instant), is;
   if (!published_.empty() && published_.front().instant == instant) is.swap(published_);

@@ -76,8 +76,8 @@ class TakenValues {
   virtual bool take(Duration instant, std::size_t communicator, void* value) = 0;
 };
 
-/// Channels that give each `in` communicator what it took; one per distributer of the graph. `values` and `graph`
-/// outlive them.
+/// External systems that give each `in` communicator what it took; one per distributer of the graph. `values` and
+/// `graph` outlive them.
 std::vector<std::unique_ptr<ExternalSystem>> replayed_channels(const Graph& graph, TakenValues& values);
 
 }  // namespace jarol

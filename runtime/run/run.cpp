@@ -3,7 +3,7 @@
 namespace jarol {
 namespace {
 
-// Where the vehicle may be brought to rest, what that hangs on.
+// Where the vehicle may be brought to rest, what that depends on.
 std::span<const expect::Signal> tapped_signals(const Graph& graph, bool may_rest) {
   if (!may_rest) return {};
   return graph.at_end->until.signals;

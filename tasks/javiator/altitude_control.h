@@ -1,4 +1,4 @@
-// The helicopter's law of altitude. Demands are parts of the thrust of hover.
+// The helicopter's law of altitude; altitude_phases.h has what it does on the ground, blind, and in a landing.
 #pragma once
 
 #include <string_view>
@@ -35,6 +35,17 @@ struct QuickLanding {
   }
 };
 
+/// Altitude z (m) and climb (m/s) are positive up, from the place of take-off; thrust is in parts of that of hover. In
+/// flight, with z.place, z.speed and z.demand of the approach to a commanded altitude (approach.h) or of a landing:
+///   a      = z.demand + kp (z.place - altitude) + kd (z.speed - climb) + sunk          m/s^2
+///   sunk_dot     = ki (z.place - altitude), |sunk| <= 1 m/s^2
+///   thrust = trim + (1 + a / g) / max(cos(phi) cos(theta), 0.5) - 1 - blind_cut,       from 0.1 to 2
+///   trim_dot     = lift_bandwidth (1 + expected - lift / g),                           trim from 0.4 to 1.7
+///   expected_dot = (thrust - trim - expected) / lift_lag
+/// phi and theta are roll and pitch, lift the specific force that the accelerometer feels upwards along the body's axis
+/// (m/s^2), and trim what hover takes: an observer of the disturbance of thrust. On one foot, while it comes down, trim
+/// falls at unload times the time on that foot; in a quick landing it stays. These equations are this project's; those
+/// of the JAviator's own controller (github.com/cksystemsgroup/JAviator) are in original_control.h.
 struct AltitudeControl {
   static constexpr std::string_view summary = "takes off softly, holds a commanded altitude, and lands softly";
   struct Param {

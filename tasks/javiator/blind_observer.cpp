@@ -14,15 +14,14 @@ using Eigen::Vector2d;
 using Matrix = Eigen::Matrix<double, 5, 5>;
 using Vector = Eigen::Matrix<double, 5, 1>;
 
-constexpr double gravity = 9.81;
-
 Eigen::Map<Matrix> covariance_of(LeanGuess& guess) { return Eigen::Map<Matrix>(guess.covariance.data()); }
 
 // What is known when an IMU falls silent, or has reported the same for a while. A ray is as long for a lean towards its
 // wall as for one away from it, and winds turn it to either side: each guess is of another wind.
 void begin(LeanAxis& axis, const BlindObserver::Param& p) {
-  constexpr double apart = 1.2, part = 0.8;  // of the wind's deviation
-  const Vector deviations(0.003, 0.03, 0.01, 0.05, part * p.gusts);
+  constexpr double apart = 1.2, part = 0.8;  // of the wind's deviation: guesses lie so far apart, each as wide
+  constexpr double place = 0.003, speed = 0.03, lean = 0.01, rate = 0.05;  // m, m/s, rad, rad/s, as an IMU knows them
+  const Vector deviations(place, speed, lean, rate, part * p.gusts);
   double sum = 0;
   for (std::size_t i = 0; i < axis.guesses.size(); ++i) {
     LeanGuess& guess = axis.guesses[i] = axis.mean;
@@ -122,11 +121,12 @@ void correct(LeanGuess& guess, const PlaceFix& fix, double taken, const BlindObs
 }
 
 void correct(LeanAxis& axis, const PlaceFix& fix, const BlindObserver::Param& p) {
+  constexpr double min_weight = 1e-12;  // no guess is given up
   if (!fix.is_new) return;
   double sum = 0;
   for (LeanGuess& guess : axis.guesses) {
     correct(guess, fix, axis.mean.lean, p);
-    guess.weight = std::max(guess.weight, 1e-12);
+    guess.weight = std::max(guess.weight, min_weight);
     sum += guess.weight;
   }
   for (LeanGuess& guess : axis.guesses) guess.weight /= sum;
@@ -184,8 +184,8 @@ void BlindObserver::run(const Param& p, const Tick& tick, const In& in, State& s
   }
   state.is_blind = !e.rates_known;
   feel(state, p.lag, dt);
-  // one that stands has a mean thrust of nothing
-  const double spin = std::sqrt(std::max(state.felt_thrust, 0.0) / std::max(state.mean_thrust, 0.1));
+  constexpr double min_thrust = 0.1;  // of hover's: the mean of one that stands is 0
+  const double spin = std::sqrt(std::max(state.felt_thrust, 0.0) / std::max(state.mean_thrust, min_thrust));
   const Vector2d turning = p.effect * (Rotation2Dd(state.heading) * Vector2d(-state.felt.pitch, state.felt.roll));
   const GroundEffect ground = find_ground_effect(p, e.altitude);
   const double lift =

@@ -4,12 +4,28 @@
 #include <array>
 #include <string_view>
 
+#include "graph/math/geometry.h"
 #include "graph/task.h"
 #include "tasks/values/javiator.h"
 
 namespace jarol::tasks {
 
-/// How it may move along one horizontal axis, north or east: a Kalman filter of fifth order.
+/// How it may move along one horizontal axis, north or east, s = [place speed lean rate wind]: a Kalman filter of fifth
+/// order, in SI units and rad, one period dt on with h = dt^2 / 2:
+///   s' = F s + [a h, a dt, t h, t dt, 0],   P' = F P F^T + Q dt
+///       | 1  dt           lift h           0               0            |
+///       | 0  1 - c dt     lift dt          lift h          c dt         |   c = spin drag, m = spin damping,
+///   F = | 0  0            1 - k h          dt - m h        n h          |   n = spin hub
+///       | 0  -n dt        -k dt            1 - m dt        n dt         |
+///       | 0  0            0                0               1 - dt / gust_time |
+///   Q = diag(0, force_noise^2, 0, torque_noise^2, 2 gusts^2 / gust_time)
+/// (a, m/s^2: drag in the mean wind, as last felt, times spin; t, rad/s^2: what the demand turns it by, and what turned
+/// it besides, as last felt, times spin; lift: specific force, m/s^2; k, 1/s^2: by which the ground effect rights it;
+/// spin: speed of the rotors, the root of the thrust felt by its mean when the IMU was lost). A place z that a laser
+/// measures by a ray that leans with the vehicle, `taken` being the lean that z was taken with, off = lean - taken:
+///   H = [1 0 -slope' 0 0],   slope' = slope + range off,   z' = z + (slope + range off / 2) off + bend / 2
+///   bend = range P_33 (the second-order term),   S = H P H^T + range_noise^2 + (yaw_noise skew)^2 + bend^2 / 2
+///   K = P H^T / S,   s += K (z' - place),   P -= K H P,   weight *= e^(-(z' - place)^2 / 2S) / sqrt(S)
 struct LeanGuess {
   double weight = 0;
   double place = 0, speed = 0, lean = 0, rate = 0, wind = 0;
@@ -100,7 +116,7 @@ struct BlindObserver {
     TurnDemand felt{}, last{};
     double mean_yaw = 0, p = 0, q = 0, heading = 0, yaw = 0, yaw_rate = 0;
     bool turns = false, is_blind = false;
-    double mean_thrust = 1, last_thrust = 1, felt_thrust = 1, lift = 9.81;
+    double mean_thrust = 1, last_thrust = 1, felt_thrust = 1, lift = gravity;
     static constexpr auto fields() {
       using S = State;
       return describe(field<&S::x>(), field<&S::y>(), field<&S::felt>("", "demand, by now"),

@@ -10,27 +10,30 @@
 namespace jarol::tasks {
 namespace {
 
-constexpr double gravity = 9.81;
+constexpr double max_place_trim = 1;  // m/s^2
 
 struct Held {
   double place, speed, drag;
 };
 
 double hold(const PositionControl::Param& p, const Approach& a, const Held& is, bool blind, double& trim, double dt) {
-  trim = limited(trim + p.ki * (a.place - is.place) * dt, 1);
+  trim = limited(trim + p.ki * (a.place - is.place) * dt, max_place_trim);
   const double kp = blind ? p.blind_kp : p.kp, kd = blind ? p.blind_kd : p.kd;
   return a.demand + kp * (a.place - is.place) + kd * (a.speed - is.speed) - is.drag + trim;
 }
 
+constexpr double model_part = 0.8;  // of the greatest demand, at most, for what the model takes
+constexpr double trim_part = 0.2;   // of it, at most, for what is learnt
+
 double turn(const TurnGains& g, TurnModel& model, double goal, double angle, double rate, double dt) {
   const double w = g.bandwidth;
-  const double max = 0.8 * g.limit * g.effect;
+  const double max = model_part * g.limit * g.effect;
   const double speed = limited(0.5 * w * (goal - model.angle), g.rate);
   const double acceleration = limited(2 * w * (speed - model.rate), max);
   model.angle += model.rate * dt + 0.5 * acceleration * dt * dt;
   model.rate += acceleration * dt;
   const double error = wrapped(model.angle - angle);
-  model.trim = limited(model.trim + g.ki * error * dt, 0.2 * g.limit);
+  model.trim = limited(model.trim + g.ki * error * dt, trim_part * g.limit);
   const double demand =
       limited(acceleration / g.effect + g.kp * error + g.kd * (model.rate - rate) + model.trim, g.limit);
   // a zero at 1/spin_time is cancelled
@@ -38,7 +41,8 @@ double turn(const TurnGains& g, TurnModel& model, double goal, double angle, dou
   return model.given;
 }
 
-// What is more than a motor can give its pair gives less of, and the other pair more: that turns yaw alone.
+// By as much as a motor's part exceeds what it can give its pair gets less, and the other pair more: that turns yaw
+// alone.
 void spare(std::array<double, 4>& parts, const std::array<double, 4>& effectiveness, double full) {
   const auto excess = [&](std::size_t i) { return std::max(parts[i] - effectiveness[i] * full, 0.0); };
   const double less = std::max(excess(0), excess(2)) - std::max(excess(1), excess(3));

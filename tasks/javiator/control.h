@@ -1,5 +1,9 @@
 // The helicopter's control laws: position over attitude, and the mixer that turns attitude and lift into signals for
-// four motors. Demands are parts of the thrust of hover, so that gains hold for light and heavy vehicles.
+// four motors. Demands are parts of the thrust of hover, so that gains hold for light and heavy vehicles. In their
+// equations, SI units and rad: x is north and y east from the place of take-off; phi, theta, psi are roll, pitch and
+// the heading from north, ZYX, yaw that since take-off; p, q, r the angular rates in body axes (forward, right, down);
+// |x| <= m means that x is limited to -m..m. The laws are this project's; those of the JAviator's own controller
+// (github.com/cksystemsgroup/JAviator, gumstix/src) are in original_control.h.
 #pragma once
 
 #include <numbers>
@@ -12,6 +16,16 @@
 
 namespace jarol::tasks {
 
+/// Where it holds a place it follows an approach to it (approach.h), with a_d the acceleration that this demands:
+///   a      = a_d + kp (x_d - x) + kd (v_d - v) - drag + trim           m/s^2, for north and east alike
+///   trim_dot = ki (x_d - x),                                           |trim| <= 1 m/s^2
+///   drag_dot = (drag felt - drag) / drag_time
+///   phi_d   = atan((cos(psi) a_east - sin(psi) a_north) / g),          |phi_d| <= lean_limit
+///   theta_d = -atan((cos(psi) a_north + sin(psi) a_east) / g),         |theta_d| <= lean_limit
+/// (a thrust that carries the weight, leaning so, accelerates it by a). Without an IMU blind_kp and blind_kd are the
+/// gains. A landing without a place brakes: a = -v - drag. By hand the pilot's roll and pitch are meant from the
+/// heading of take-off: phi_d = roll cos(yaw) + pitch sin(yaw), theta_d = pitch cos(yaw) - roll sin(yaw). Standing it
+/// levels: phi_d_dot = -phi_d / stand_time, and theta_d alike.
 struct PositionControl {
   static constexpr std::string_view summary = "holds a place by leaning towards it, or leans as the pilot says";
   struct Param {
@@ -65,7 +79,14 @@ struct PositionControl {
   static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out);
 };
 
-/// One axis of attitude: it follows a critically damped model of the second order, whose effort it knows.
+/// One axis of attitude, of angle a and rate a_dot: it follows a critically damped model of the second order, whose
+/// demand it knows, w being the bandwidth:
+///   rate_d = w / 2 (goal - model.angle),            |rate_d| <= rate
+///   acceleration = 2 w (rate_d - model.rate),       |acceleration| <= 0.8 limit effect       (s^2 + 2 w s + w^2)
+///   demand = acceleration / effect + kp (model.angle - a) + kd (model.rate - a_dot) + trim,  |demand| <= limit
+///   trim_dot = ki (model.angle - a),                |trim| <= 0.2 limit; it is added to before it is used
+///   given_dot = (demand - given) / spin_time, which cancels a zero at -1 / spin_time: the hull turns more while rotors
+///               speed up than by their drag. Without a spin_time it is the demand.
 struct TurnGains {
   double bandwidth = 1;
   double effect = 1;
@@ -98,6 +119,8 @@ struct TurnModel {
   }
 };
 
+/// TurnGains' law of roll and pitch with p and q, and of yaw with r, as their rates. Where nothing shows how it leans,
+/// roll and pitch turn level as their models do, with goal 0 and no error, and yaw keeps its model's angle.
 struct AttitudeControl {
   static constexpr std::string_view summary = "turns to a commanded roll, pitch and yaw";
   struct Param {
@@ -141,8 +164,16 @@ struct AttitudeControl {
   static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out);
 };
 
-/// A weak motor is sent more. One that can't give what its part of a demand is, at its full signal, keeps the others'
-/// balance of roll, pitch and lift at the cost of yaw.
+/// Of a demand of lift, and of roll, pitch and yaw while it flies or lands, each motor has a part:
+///   front = lift - yaw + pitch,   right = lift + yaw - roll,   rear = lift - yaw - pitch,   left = lift + yaw + roll
+/// and is sent the signal at which it gives that (rotor_law.h), with `effectiveness` the thrust of a weak motor in
+/// parts of a sound one's. While rotors change it is more than is due, from 0 to full:
+///   due    = full_signal(battery) (part / effectiveness)^(1 / exponent)
+///   signal = reached + (due - reached) (1 - e^(-T / quick_lag)) / (1 - e^(-T / lag)),  T the period
+///   reached += (signal - reached) (1 - e^(-T / lag))
+/// so that a first-order lag of `lag` acts as one of `quick_lag`. Where a weak motor can't give its part at full
+/// signal, the two of its pair (front and rear, or right and left) get so much less, and the other pair so much more:
+/// roll, pitch and lift stay in balance at the cost of yaw. Mixing and signs are the JAviator's (control.c there).
 struct MotorMixer {
   static constexpr std::string_view summary = "gives the demands of thrust and turning to the four motors";
   struct Param {

@@ -15,7 +15,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double gravity = 9.81;
 constexpr std::int64_t longest_pause = 100;  // activations: after more of them little is known anyway
 // A turn that was neither felt nor foreseen, while nothing was heard for longer than a few lost packets.
 constexpr double felt_gap = 0.1;   // s

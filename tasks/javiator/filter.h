@@ -96,6 +96,19 @@ struct ReadingAge {
   }
 };
 
+/// In SI units and rad, with R_nb the rotation by roll, pitch, yaw (ZYX) of body axes (forward, right, down) into NED
+/// at the place of take-off, f_b the specific force of the accelerometer and omega_b = (p, q, r) of its gyros:
+///   angles:     their rates are those of omega_b (rotations.h, euler_rates), and by each credible reading of the IMU
+///               angle += angle_gain (measured - angle)
+///   motion:     a_n = R_nb f_b + (0, 0, g), which an AxisObserver integrates for north, east and upwards (-a_z)
+///   altitude:   z of R_nb (sonar_x, sonar_y, sonar_z + range), from where it stood, corrects the third of them
+///   place:      find_place (room.h) of each laser's range with the rotation at that time, the first two
+///   drift:      a second observer upwards, and a SlowAngle of roll and pitch, hardly corrected (filter_checks.h)
+///   pressure:   h = (mean on the ground - pressure) / (12 Pa/m); without a sonar, with e = h - z at each reading,
+///               z += pressure_place e,   climb += pressure_speed e
+/// Between readings of the IMU rates and forces fade by e^(-since / fade), rates to 0 and f_b to R_nb^T (0, 0, -g). The
+/// estimate is turned on by the age of what is measured: angle + age rate. While the IMU is lost the angles, and place
+/// and speed, are BlindObserver's. The JAviator's own filter is in original_filter.h.
 struct JaviatorFilter {
   static constexpr std::string_view summary = "estimates attitude, position and velocity from the helicopter's sensors";
   struct Param {

@@ -41,7 +41,8 @@ bool may_fall(const FlightLogic::Param& p, const FlightEstimate& e, double thrus
   return e.rates_known && (std::hypot(e.roll, e.pitch) > p.level || thrust > p.carried);
 }
 
-// For how long that has to last. A motor that gives more than it is told carries it aloft with little thrust demanded.
+// For how long that has to last. A motor that gives more than it is commanded carries it aloft with little thrust
+// demanded.
 double touch_time(const FlightLogic::Param& p, const FlightEstimate& e, double thrust) {
   constexpr double high = 0.5;  // m
   if (e.altitude_known && e.altitude >= high) return p.high_time;

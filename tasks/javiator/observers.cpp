@@ -6,6 +6,15 @@
 #include "graph/math/geometry.h"
 
 namespace jarol::tasks {
+namespace {
+
+constexpr double bias_part = 0.02;           // of a new reading in the bias, at rest
+constexpr double place_part = 0.1;           // of one in the place where it stands
+constexpr double pressure_part = 0.1;        // of one in the mean
+constexpr std::uint32_t max_readings = 200;  // in the average of steps
+constexpr double max_step = 20;              // Pa: one gust is no noise
+
+}  // namespace
 
 void predict(AxisObserver& axis, double acceleration, double dt) {
   const double a = acceleration - axis.bias;
@@ -14,8 +23,6 @@ void predict(AxisObserver& axis, double acceleration, double dt) {
   axis.since += dt;
 }
 
-// gains of the critically damped filter of third order, with its poles at e^(-bandwidth T) (Brookner, "Tracking and
-// Kalman Filtering Made Easy", 1998, sec. 1.3)
 void correct(AxisObserver& axis, double measured, double bandwidth) {
   const double residual = measured - axis.place;
   const double T = axis.since;
@@ -28,7 +35,6 @@ void correct(AxisObserver& axis, double measured, double bandwidth) {
 
 void predict(SlowAngle& slow, double rate, double dt) { slow.angle += (rate - slow.bias) * dt; }
 
-// gains of the critically damped filter of second order (Brookner, sec. 1.2)
 void correct(SlowAngle& slow, double measured, double bandwidth, double dt) {
   const double residual = measured - slow.angle;
   const double pole = std::exp(-bandwidth * dt);
@@ -37,14 +43,14 @@ void correct(SlowAngle& slow, double measured, double bandwidth, double dt) {
 }
 
 void rest(AxisObserver& axis, double acceleration) {
-  axis = {.place = axis.place, .bias = axis.bias + 0.02 * (acceleration - axis.bias)};
+  axis = {.place = axis.place, .bias = axis.bias + bias_part * (acceleration - axis.bias)};
 }
 
 void settle(AxisObserver& axis, double& zero, double measured, bool has_flown) {
   if (has_flown) {
-    axis.place += 0.1 * (measured - zero - axis.place);
+    axis.place += place_part * (measured - zero - axis.place);
   } else {
-    zero += (zero == 0 ? 1 : 0.1) * (measured - zero);
+    zero += (zero == 0 ? 1 : place_part) * (measured - zero);
   }
 }
 
@@ -54,17 +60,17 @@ void take_off(AxisObserver& axis, double& zero) {
 }
 
 void rest(SlowAngle& slow, double measured, double rate) {
-  slow = {.angle = measured, .bias = slow.bias + 0.02 * (rate - slow.bias)};
+  slow = {.angle = measured, .bias = slow.bias + bias_part * (rate - slow.bias)};
 }
 
 void learn(GroundPressure& ground, double pressure, double last) {
-  ground.readings = std::min(ground.readings + 1, 200U);
+  ground.readings = std::min(ground.readings + 1, max_readings);
   if (ground.readings == 1) {
     ground.mean = pressure;
     return;
   }
-  ground.mean += 0.1 * (pressure - ground.mean);
-  const double step = limited(pressure - last, 20);  // one gust is no noise
+  ground.mean += pressure_part * (pressure - ground.mean);
+  const double step = limited(pressure - last, max_step);
   ground.step_squared += (step * step - ground.step_squared) / (ground.readings - 1);
 }
 

@@ -7,8 +7,12 @@
 
 namespace jarol::tasks {
 
-/// One axis of a fixed-gain observer: acceleration is integrated, and each measurement corrects place, speed and the
-/// bias of the accelerometer.
+/// One axis of a fixed-gain observer of place x (m), speed v (m/s) and the accelerometer's bias b (m/s^2). Over dt:
+///   x += v dt + (a - b) dt^2 / 2,   v += (a - b) dt
+/// and by a measured place z, T after the one before, with beta = e^(-bandwidth T) and e = z - x:
+///   x += (1 - beta^3) e,   v += 3/2 (1 - beta)^2 (1 + beta) e / T,   b -= (1 - beta)^3 e / T^2
+/// The error then follows (s + bandwidth)^3: the critically damped filter of third order (Brookner, "Tracking and
+/// Kalman Filtering Made Easy", 1998, section 1.3).
 struct AxisObserver {
   double place = 0, speed = 0, bias = 0;
   double since = 0;
@@ -20,7 +24,12 @@ struct AxisObserver {
   }
 };
 
-/// An angle that its rate turns, whose bias is learnt; what is measured corrects it only slowly.
+/// An angle (rad) that its rate turns, whose bias b (rad/s) is learnt; what is measured corrects it only slowly. Over
+/// dt:
+///   angle += (rate - b) dt
+/// and by a measured angle z each dt, with beta = e^(-bandwidth dt) and e = z - angle:
+///   angle += (1 - beta^2) e,   b -= (1 - beta)^2 e / dt
+/// (s + bandwidth)^2: the critically damped filter of second order (Brookner, section 1.2).
 struct SlowAngle {
   double angle = 0, bias = 0;
 

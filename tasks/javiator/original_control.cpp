@@ -13,7 +13,7 @@ namespace {
 double calc_pidd(const PiddGains& g, double goal, double place, double velocity, double acceleration, PiddState& state,
                  double dt) {
   const double error = goal - place;
-  state.integral = std::clamp(state.integral + error * dt, -16000.0, 16000.0);
+  state.integral = limited(state.integral + error * dt, 16000.0);
   const double goal_rate = (goal - state.goal) / dt;
   state.goal = goal;
   return g.kp * error + g.ki * state.integral + g.kd * (goal_rate - velocity) + g.kdd * acceleration;
@@ -81,9 +81,9 @@ void OriginalPosition::run(const Param& p, const Tick& tick, const In& in, State
       const double periods = std::floor(p.regularity / (std::floor(std::abs(error)) + 1));
       if (static_cast<double>(++waited) < periods) return;
       waited = 0;
-      integral = std::clamp(integral + error * dt, -160.0, 160.0);
+      integral = limited(integral + error * dt, 160.0);
       const double demand = gains.kp * error + gains.ki * integral + gains.kd * speed + gains.kdd * acceleration;
-      lean = std::clamp(demand, -max, max);
+      lean = limited(demand, max);
     };
     hold(1e3 * (d.y - e.y), 1e3 * e.v_y, 1e3 * e.a_y, state.integral_y, state.waited_y, state.roll);
     hold(1e3 * (d.x - e.x), 1e3 * e.v_x, 1e3 * e.a_x, state.integral_x, state.waited_x, state.pitch);

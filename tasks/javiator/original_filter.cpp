@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "graph/math/geometry.h"
 #include "graph/math/rotations.h"
@@ -81,7 +80,7 @@ void OriginalFilter::run(const Param& p, const Tick& tick, const In& in, State& 
 
   // where and as it stands before take-off is the origin, and its heading zero
   if (settled) state.zero_yaw = state.unwrapped_yaw = s.yaw;
-  state.unwrapped_yaw += std::remainder(s.yaw - state.unwrapped_yaw, 2 * std::numbers::pi);
+  state.unwrapped_yaw += wrapped(s.yaw - state.unwrapped_yaw);
   const double yaw = state.unwrapped_yaw - state.zero_yaw;
 
   const Vector3d rates = euler_rates(s.roll, s.pitch, {s.p, s.q, s.r});

@@ -1,5 +1,9 @@
 // The submarine's control laws: depth over pitch, heading over yaw rate, speed, and the fins that carry out the first
-// two. The loops are those of DUNE's autopilot, bettered where its own runs show an error that stays or a windup.
+// two. The loops are those of DUNE's autopilot (github.com/LSTS/dune, src/Control/AUV and src/DUNE/Control), changed
+// where its own runs show an error that stays or a windup. In their equations, SI units and rad: z is the depth in NED,
+// positive down; phi, theta, psi are roll, pitch and yaw, ZYX; u, v, w and p, q, r the velocity through the water and
+// the angular rates in body axes, forward, right, down; |x| <= m means that x is limited to -m..m. Integrals are used
+// before the period is added to them.
 #pragma once
 
 #include <string_view>
@@ -10,6 +14,16 @@
 
 namespace jarol::tasks {
 
+/// DUNE's Attitude: a PD law of depth commands a pitch, and one of pitch a fin angle; positive is nose up.
+///   e       = setpoint.depth - z
+///   z_dot   = -u sin(theta) + v cos(theta) sin(phi) + w cos(theta) cos(phi)
+///   theta_d = -kp e + kd z_dot + pitch_trim,                                |theta_d| <= limit
+///   pitch_trim_dot = -ki e while |e| < reach,                               |pitch_trim| <= min(limit, 0.9 kp reach)
+///   moment  = pitch_kp (theta_d - theta) - pitch_kd theta_dot,              |moment| <= fin_limit
+///   theta_dot = q cos(phi) - r sin(phi)
+/// The integral is this project's: DUNE has none set for its simulator, and stays 5 cm above a depth of 3 m there.
+/// Driven astern by a propeller that does not obey (u < -0.25 m/s) nothing steers: moment = fin_limit, see
+/// vehicles/failures.md.
 struct DepthControl {
   static constexpr std::string_view summary = "holds a commanded depth with the stern planes";
   struct Param {
@@ -51,6 +65,10 @@ struct DepthControl {
   static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out);
 };
 
+/// DUNE's Attitude with a rate of yaw between heading and fins; positive is to starboard.
+///   r_d    = kp wrapped(setpoint.heading - psi), or setpoint.rate where a rate is commanded,   |r_d| <= rate_limit
+///   moment = rate_kp (r_d - r),                                                            |moment| <= fin_limit
+/// Driven astern, as of DepthControl: moment = fin_limit.
 struct HeadingControl {
   static constexpr std::string_view summary = "turns to a commanded heading with the rudders";
   struct Param {
@@ -78,6 +96,11 @@ struct HeadingControl {
   static void run(const Param& p, const Tick&, const In& in, Out& out);
 };
 
+/// The propeller's actuation, 1 being full speed ahead; where a thrust is commanded it is that, from -1 to 1.
+///   e         = setpoint.speed - u
+///   actuation = feed_forward setpoint.speed + kp e + integral,   from 0 to 1; 0 where the speed commanded is not above
+///   0 integral_dot = ki e while the actuation is not at a bound
+/// This project's: DUNE commands revolutions with a slew, and overshoots in its simulator.
 struct SpeedControl {
   static constexpr std::string_view summary = "holds a commanded speed with the propeller";
   struct Param {
@@ -107,6 +130,8 @@ struct SpeedControl {
   static void run(const Param& p, const Tick& tick, const In& in, State& state, Out& out);
 };
 
+/// DUNE's Allocator without roll: fins (bottom, port, starboard, top), in rad, are (-yaw, -pitch, -pitch, -yaw) by the
+/// moments of HeadingControl and DepthControl, which are fin angles.
 struct FinAllocator {
   static constexpr std::string_view summary =
       "gives the demands of pitch and yaw to the four fins, the thrust to the propeller";

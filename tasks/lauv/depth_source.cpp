@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/math/geometry.h"
+
 namespace jarol::tasks {
 namespace {
 
-constexpr double gravity = 9.81, water_density = 1000, air_pressure = 1013.25;  // hPa
+constexpr double water_density = 1000, air_pressure = 1013.25;  // hPa
 
 }  // namespace
 

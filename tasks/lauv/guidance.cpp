@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/math/euler_angles.h"
 #include "tasks/add_task.h"
 
 namespace jarol::tasks {
@@ -120,7 +121,7 @@ double depth_of(const In& in, double z) {
   if (in.leg.vertical == Vertical::depth) return z;
   const Motion& m = in.motion;
   if (!level_is_known(in)) return m.z;
-  return std::max(m.z + in.instruments.altitude.value * std::cos(m.theta) * std::cos(m.phi) - z, 0.0);
+  return std::max(m.z + vertical_part(in.instruments.altitude.value, m.phi, m.theta) - z, 0.0);
 }
 
 // The depth goes up and down as fast as that pitch lets it; it turns where the vehicle has come to.

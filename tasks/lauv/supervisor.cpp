@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "graph/math/euler_angles.h"
 #include "graph/math/geometry.h"
 #include "graph/math/rotations.h"
 #include "tasks/add_task.h"
@@ -16,7 +17,6 @@ namespace {
 using Param = LauvSupervisor::Param;
 using State = LauvSupervisor::State;
 
-constexpr double gravity = 9.81;
 constexpr double watch_time = 2;        // s, over which rates add up
 constexpr double floor_time = 30;       // s, for the sea floor to rise or fall
 constexpr double surface_depth = 0.15;  // m, at which GPS has to work; a little deeper it does not
@@ -85,7 +85,7 @@ double calc_silence(const State& state) {
 double calc_force(const Param& p, double rpm, double speed) {
   const double n = rpm * std::numbers::pi / 30;
   const double thrust = (p.thrust_coefficient * n - p.advance_coefficient * speed) * std::abs(n);
-  return std::clamp(thrust, -p.max_thrust, p.max_thrust) - p.surge_drag * speed * (1 + std::abs(speed));
+  return limited(thrust, p.max_thrust) - p.surge_drag * speed * (1 + std::abs(speed));
 }
 
 Alarm find_liar(const Param& p, const Instruments& i, double dt, State& state) {
@@ -93,7 +93,7 @@ Alarm find_liar(const Param& p, const Instruments& i, double dt, State& state) {
   const bool turns = told(i.attitude, i.rates), moves = told(i.velocity, i.rpm),
              sounds = told(i.altitude, i.depth, i.attitude);
   const double theta = i.attitude.y, phi = i.attitude.x;
-  const double floor = i.altitude.value * std::cos(limited(theta, max_pitch_of_rates)) * std::cos(phi) + i.depth.value;
+  const double floor = vertical_part(i.altitude.value, phi, limited(theta, max_pitch_of_rates)) + i.depth.value;
   if (turns && !std::exchange(state.attitude_started, true)) {
     state.theta = theta;
     state.psi = i.attitude.z;
@@ -158,10 +158,8 @@ Alarm find_actuator(const Param& p, const LauvSupervisor::In& in, State& state) 
   return is_low(p, voltage) ? Alarm::voltage_limit : found;
 }
 
-// Down, by its motion across the hull: the last two parts of the third row of R_nb times the velocity.
 double calc_heave(const Instruments& i) {
-  const double phi = i.attitude.x;
-  return (i.velocity.y * std::sin(phi) + i.velocity.z * std::cos(phi)) * std::cos(i.attitude.y);
+  return sinking_across(i.attitude.x, i.attitude.y, i.velocity.y, i.velocity.z);
 }
 
 bool moves_known(const Instruments& i) { return i.attitude.count > 0 && i.velocity.count > 0; }
@@ -189,7 +187,7 @@ Alarm find_exceeded(const Param& p, const LauvSupervisor::In& in, const State& s
   const double way_down = calc_way_down(p, i, state);
   if (depth_of(i) + way_down > p.max_depth) return Alarm::depth_limit;
   // above the floor, not along the beam
-  const double altitude = i.altitude.value * std::cos(i.attitude.y) * std::cos(i.attitude.x);
+  const double altitude = vertical_part(i.altitude.value, i.attitude.x, i.attitude.y);
   if (i.altitude.count > 0 && altitude - way_down < p.min_altitude) return Alarm::altitude_limit;
   if (std::abs(i.attitude.y) > p.max_pitch) return Alarm::pitch_limit;
   if (is_low(p, i.voltage)) return Alarm::voltage_limit;

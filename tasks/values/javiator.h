@@ -67,7 +67,7 @@ constexpr auto enumerators(FlightState) {
                                                  {"landing", FlightState::landing}}};
 }
 
-/// Why the vehicle lands or stops without being told to.
+/// Why the vehicle lands or stops without a command to.
 enum class LandingCause : std::uint8_t {
   none,
   roll,

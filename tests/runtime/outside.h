@@ -38,7 +38,7 @@ inline DistributerClass plant() {
           true};
 }
 
-// What a plant reports, and whether, hangs on the machine's clock; some of it is not finite.
+// What a plant reports, and whether, depends on the machine's clock; some of it is not finite.
 class Outside : public ExternalSystem {
  public:
   void reach(Duration) override {}

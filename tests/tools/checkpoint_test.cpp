@@ -271,6 +271,11 @@ TEST_SUITE("tools/checkpoint") {
                          "the checkpoint is of a run without 'tasks.slow.let=10ms'; parameters of tasks may change "
                          "here, and nothing else",
                          CheckpointRefused);
+    Checkpoint first = one.checkpoint();
+    const Checkpoint second = std::move(first);
+    CHECK_THROWS_WITH_AS(other.restore(first), "the checkpoint has nothing in it: it was moved elsewhere",
+                         CheckpointRefused);
+    CHECK_THROWS_WITH_AS(first.to_bytes(), "has nothing in it: it was moved elsewhere", CheckpointError);
     // what was published last is known after that
     Session next = open("specs/counting.yaml");
     next.restore(Checkpoint::from_bytes(one.checkpoint().to_bytes()));

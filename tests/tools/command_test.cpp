@@ -88,6 +88,12 @@ tasks:
   }
 #endif
 
+  TEST_CASE("a stack that is too small is reported in words") {
+    const Result refused = run_jarol("run specs/exolauv.yaml", "2>&1", "ulimit -s 64; " JAROL_COMMAND);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.output == "error: the stack is limited to 64 KiB; it needs 256 KiB, as 'ulimit -s 256' gives it\n");
+  }
+
   TEST_CASE("run reports how much of each private heap was in use at most, and a trace holds sequences whole") {
     const TemporaryFolder folder;
     const auto run = json_of("run specs/window.yaml --for 1s --json --trace " + (folder / "t.csv"));

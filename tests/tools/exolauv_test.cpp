@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "distributers/lauv/operator.h"
@@ -14,6 +15,7 @@
 #include "tasks/lauv/supervisor.h"
 #include "tasks/values/lauv.h"
 #include "tools/commands/run/load_graph.h"
+#include "tools/report/value_json.h"
 
 namespace {
 using namespace jarol;
@@ -34,7 +36,8 @@ constexpr double command_at = 2, turn_at = 50;  // s, as in specs/missions/dive.
 
 TEST_SUITE("tools/exolauv") {
   TEST_CASE("the limits of plans are those of its supervisor and of what its propeller reaches, in each profile") {
-    for (const char* profile : {"", "at_sea", "submarine_dune", "submarine_vsim", "dune", "console", "desk", "lab"}) {
+    for (const char* profile :
+         {"", "at_sea", "submarine_dune", "submarine_vsim", "dune", "console", "desk", "lab", "dune_console"}) {
       CAPTURE(profile);
       const Loaded loaded = tools::load_without_channels("specs/exolauv.yaml", {.profile = profile, .set = {}});
       const auto parameters_of = [](const auto& all, const char* name) -> const void* {
@@ -53,6 +56,31 @@ TEST_SUITE("tools/exolauv") {
       CHECK(limits.min_altitude == supervisor->min_altitude);
       CHECK(supervisor->surge_drag * limits.max_speed * (1 + limits.max_speed) <= supervisor->max_thrust * 1.0001);
     }
+  }
+
+  TEST_CASE("the profile for DUNE with a console has all of the one for DUNE, and the link of the one for a console") {
+    const auto load = [](const char* profile) {
+      return tools::load_without_channels("specs/exolauv.yaml", {.profile = profile, .set = {}});
+    };
+    const Loaded both = load("dune_console"), dune = load("dune"), console = load("console");
+    const auto text_of = [](const Value& value) { return tools::graph_text(*value.type(), value.data()); };
+    const auto flat = [](const Yaml& link) {
+      std::string text;
+      for (const Yaml& child : link.children) text += child.key + " " + child.text + ", ";
+      return text;
+    };
+    const auto named = [](const auto& all, const std::string& name) {
+      return *std::find_if(all.begin(), all.end(), [&](const auto& each) { return each.name == name; });
+    };
+    const auto distributer = [&](const Loaded& of, const char* name) { return named(of.graph->distributers, name); };
+    for (const char* name : {"dune", "neptus"})
+      CHECK(text_of(distributer(both, name).parameters) == text_of(distributer(dune, name).parameters));
+    CHECK(text_of(named(both.graph->tasks, "supervisor").parameters) ==
+          text_of(named(dune.graph->tasks, "supervisor").parameters));
+    CHECK(flat(distributer(both, "dune").link) == flat(distributer(dune, "dune").link));
+    CHECK(flat(distributer(both, "neptus").link) == flat(distributer(console, "neptus").link));
+    CHECK(flat(distributer(both, "neptus").link) ==
+          "type udp, listen 6001, id 0x00D1, announce 127.0.0.1:30100-30104, ");
   }
 
   TEST_CASE("it reaches 3 m within 30 s of the command and holds it within 5 cm, through the turn too") {

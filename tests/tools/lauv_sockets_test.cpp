@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <thread>
 
 #include "distributers/links/link.h"
@@ -19,9 +20,9 @@ using Clock = std::chrono::steady_clock;
 
 class Console : public messages::Receiver {
  public:
-  explicit Console(const std::string& port)
+  explicit Console(const std::string& port, std::uint64_t id = 0x4001)
       : link_(std::make_unique<UdpTransport>(Address::parse("0"), Address::parse(port)), imc::message_set(),
-              {.input = {PortKind::push, 256}, .output = {}, .header = {{"src", 0x4001}}}) {
+              {.input = {PortKind::push, 256}, .output = {}, .header = {{"src", id}}}) {
     link_.connect();
   }
 
@@ -35,6 +36,7 @@ class Console : public messages::Receiver {
     if (const auto* v = message.as<imc::VehicleState>()) op_mode = v->op_mode;
     if (const auto* a = message.as<imc::RemoteActionsRequest>()) actions = std::string(a->actions);
     if (message.as<imc::Heartbeat>() != nullptr) ++heartbeats;
+    if (const auto* list = message.as<imc::EntityList>()) entities = std::string(list->list);
   }
   // Says them every 100 ms, as a console does, until that is so.
   template <class Done, class... Messages>
@@ -50,7 +52,7 @@ class Console : public messages::Receiver {
   imc::EstimatedState state;
   int op_mode = -1;
   int heartbeats = 0;
-  std::string actions;
+  std::string actions, entities;
 
  private:
   Link link_;
@@ -90,5 +92,51 @@ TEST_SUITE("tools/lauv_sockets") {
     vehicle.interrupt();
     CHECK(vehicle.end() == 130);
     CHECK(vehicle.output().find("NO PACKET") == std::string::npos);
+  }
+
+  TEST_CASE("two consoles at once steer one submarine; one leaves and comes again; who has no place is a stranger") {
+    const std::string operating = tests::free_port(SOCK_DGRAM);
+    tests::Process graph(
+        "run specs/exolauv.yaml --profile console --clock real --json --for 1h --set "
+        "distributers.neptus.link.peers=2 --set distributers.neptus.link.listen=" +
+        operating);
+    using OpMode = imc::VehicleState::OpMode;
+    std::optional<Console> one(std::in_place, operating, 0x4001);
+    Console other(operating, 0x4002);
+    const imc::EntityList query{imc::EntityList::Op::QUERY, ""};
+    for (Console* console : {&*one, &other})
+      CHECK(
+          console->say_until([&] { return !console->entities.empty() && console->op_mode == OpMode::SERVICE; }, query));
+    // what one commands, both see; and the other's heading is added to its depth
+    CHECK(one->say_until([&] { return one->state.depth > 0.3F && one->op_mode == OpMode::EXTERNAL; },
+                         imc::DesiredZ{2, imc::ZUnits::DEPTH}, imc::DesiredSpeed{1.2, imc::SpeedUnits::METERS_PS}));
+    CHECK(other.say_until([&] { return other.state.psi > 0.15F && other.op_mode == OpMode::EXTERNAL; },
+                          imc::DesiredHeading{1.5}));
+    CHECK(one->say_until([&] { return one->state.psi > 0.15F; }, imc::Heartbeat{}));
+    {
+      Console third(operating, 0x4003);
+      third.say(imc::Abort{});
+      const int before = other.heartbeats;
+      CHECK(other.say_until([&] { return other.heartbeats > before + 1; }, imc::Heartbeat{}));
+      CHECK(other.op_mode == OpMode::EXTERNAL);
+      CHECK(third.heartbeats == 0);
+    }
+    one.reset();
+    const int before = other.heartbeats;
+    CHECK(other.say_until([&] { return other.heartbeats > before + 1; }, imc::Heartbeat{}));
+    one.emplace(operating, 0x4001);
+    CHECK(one->say_until([&] { return one->heartbeats > 1; }, imc::Heartbeat{}));
+    CHECK(one->say_until([&] { return one->op_mode == OpMode::ERROR; }, imc::Abort{}));
+    CHECK(other.say_until([&] { return other.op_mode == OpMode::SERVICE; }, imc::Heartbeat{}));
+    graph.interrupt();
+    CHECK(graph.end() == 130);
+    const nlohmann::json link = graph.json()["links"][0];
+    CHECK(link["heard"] == true);
+    CHECK(link["counts"]["peers"] == 3);
+    CHECK(link["counts"]["closed ports"] == 1);
+    CHECK(link["counts"]["takeovers"] == 0);
+    CHECK(link["peers"].size() == 3);
+    CHECK(link["strangers"].size() == 1);
+    CHECK(link["strangers"][0]["times"] == 1);
   }
 }

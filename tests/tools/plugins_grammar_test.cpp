@@ -127,7 +127,7 @@ TEST_SUITE("tools/plugins_grammar") {
           "without.yaml:2:19: error: 'timing' key 'grammar' can't be 'rates'; it is one of let\n"
           "  timing: {grammar: rates, period: 40ms}\n                    ^\nwithout.yaml: 1 error\n");
     CHECK(refusal("check " + none, folder) ==
-          "note: loads plugin 'none.so'\nnone.yaml:2:11: error: there is no file 'none.so'\n"
+          "none.yaml:2:11: error: there is no file 'none.so'\n"
           "  plugins: [none.so]\n            ^\nnone.yaml: 1 error\n");
   }
 

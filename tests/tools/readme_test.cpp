@@ -160,7 +160,7 @@ TEST_SUITE("tools/readme") {
   }
 
   TEST_CASE("the page of the analysis shows a policy of one's own that compiles, and what check says with it") {
-    check_plugin_page("graph/analysis/README.md", "rate_monotonic.cpp", "rates.yaml");
+    check_plugin_page("graph/analysis/own_policy.md", "rate_monotonic.cpp", "rates.yaml");
   }
 
   TEST_CASE("the page of the graph shows a timing grammar of one's own that compiles, and what check says with it") {

@@ -141,6 +141,26 @@ TEST_SUITE("tools/surfacing") {
     CHECK(ahead.samples.back().motion.z < 0.3);
   }
 
+  TEST_CASE("a propeller that turns full astern, whatever it is sent, leaves it upright, and it comes up") {
+    for (const double at : {5.0, 30.0, 50.6}) {
+      CAPTURE(at);
+      const Dive done =
+          dive("specs/exolauv.yaml",
+               {fmt::format("distributers.dune.link.parameters={{failures: {{propeller: {{kind: hardover, "
+                            "at: {}, to: -1}}}}, dynamics: rigid}}",
+                            at)},
+               0, 220s);
+      double deepest = 0, steepest = 0;
+      for (const auto& sample : done.samples) {
+        deepest = std::max(deepest, sample.motion.z);
+        steepest = std::max(steepest, std::abs(sample.motion.theta));
+      }
+      CHECK(deepest < 6);
+      CHECK(steepest < 50 * degree);
+      CHECK(done.samples.back().motion.z < 0.3);
+    }
+  }
+
   TEST_CASE("a fin that goes hard over ends the dive, whichever it is and to whichever side, and it hardly sinks") {
     struct Fin {
       int number, to;

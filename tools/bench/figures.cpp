@@ -109,85 +109,90 @@ Figure load_million(const std::string& name) {
   return figure;
 }
 
+struct Entry {
+  std::string name;
+  Figure (*measure)(const std::string& name, int repeats);
+};
+
+// All figures, in their order.
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> all = [] {
+    std::vector<Entry> made{
+        {"chain_10", [](const std::string& name, int repeats) { return chain_figure(name, 10, false, 0.85, repeats); }},
+        {"chain_100",
+         [](const std::string& name, int repeats) { return chain_figure(name, 100, false, 0.85, repeats); }},
+        {"chain_100_digest",
+         [](const std::string& name, int repeats) { return chain_figure(name, 100, true, 1.3, repeats); }},
+        {"multirate_100",
+         [](const std::string& name, int repeats) {
+           return compare(name, "activation of 100 tasks at 1, 2, 5, 10 ms / plain loop with two copies", 1.0, repeats,
+                          run_of(chain(100, four_rates), false, four_rate_activations), chain_floor(100));
+         }},
+        {"let_multirate_100",
+         [](const std::string& name, int repeats) {
+           return compare(name, "activation of 100 LET tasks at 1, 2, 5, 10 ms / plain fan", 1.5, repeats,
+                          run_of(chain(100, four_rates_let), false, four_rate_activations), fan_floor(100));
+         }},
+        {"fan_100",
+         [](const std::string& name, int repeats) {
+           return compare(name, "activation of a fan of 100 / plain fan", 1.9, repeats, run_of(fan(100), false, 101),
+                          fan_floor(100));
+         }},
+        {"coprime_100000", [](const std::string& name, int repeats) { return coprime_figure(name, repeats); }},
+        {"record", [](const std::string& name, int repeats) { return measure_recording(name, false, 40, repeats); }},
+        {"record_digest",
+         [](const std::string& name, int repeats) { return measure_recording(name, true, 60, repeats); }},
+        {"workers_2_tiny", [](const std::string&, int repeats) { return measure_tiny(repeats); }},
+        {"workers_2_10us", [](const std::string&, int repeats) { return measure_10us(repeats); }},
+        {"deep_1k", [](const std::string&, int repeats) { return measure_deep(repeats); }},
+        {"fault", [](const std::string&, int repeats) { return fault_figure(repeats); }},
+        {"guard", [](const std::string& name, int repeats) { return measure_guard(name, repeats); }},
+        {"load_1000", [](const std::string&, int repeats) { return load_figure(repeats); }},
+        {"load_million", [](const std::string& name, int) { return load_million(name); }},
+        {"check_1000", [](const std::string& name, int repeats) { return measure_check(name, 1000, 30, repeats); }},
+        {"check_10000", [](const std::string& name, int repeats) { return measure_check(name, 10'000, 350, repeats); }},
+        {"port_throughput",
+         [](const std::string& name, int repeats) { return measure_port_throughput(name, repeats); }},
+        {"port_round_trip",
+         [](const std::string& name, int repeats) { return measure_port_round_trip(name, repeats); }},
+        {"push_port_throughput",
+         [](const std::string& name, int repeats) { return measure_push_port_throughput(name, repeats); }},
+        {"push_port_round_trip",
+         [](const std::string& name, int repeats) { return measure_push_port_round_trip(name, repeats); }},
+        {"clock_1khz_p50", [](const std::string& name, int repeats) { return measure_clock(name, 0.5, repeats); }},
+        {"clock_1khz_p99", [](const std::string& name, int repeats) { return measure_clock(name, 0.99, repeats); }},
+        {"udp_echo", [](const std::string& name, int repeats) { return measure_udp_echo(name, repeats); }},
+        {"watched_0", [](const std::string& name, int repeats) { return measure_watched(name, 0, true, repeats); }},
+        {"watched_1", [](const std::string& name, int repeats) { return measure_watched(name, 1, true, repeats); }},
+        {"watched_100", [](const std::string& name, int repeats) { return measure_watched(name, 100, true, repeats); }},
+        {"watched_slow", [](const std::string& name, int repeats) { return measure_watched(name, 1, false, repeats); }},
+        {"layout_200", [](const std::string& name, int repeats) { return measure_layout(name, repeats); }},
+    };
+    if (has_vehicles())
+      made.insert(made.end(),
+                  {
+                      {"dive", [](const std::string&, int repeats) { return measure_dive(repeats); }},
+                      {"dive_rigid", [](const std::string&, int repeats) { return measure_dive_rigid(repeats); }},
+                      {"hover", [](const std::string&, int repeats) { return measure_hover(repeats); }},
+                      {"hover_rigid", [](const std::string&, int repeats) { return measure_hover_rigid(repeats); }},
+                      {"checkpoint", [](const std::string&, int repeats) { return measure_checkpoint(repeats); }},
+                  });
+    return made;
+  }();
+  return all;
+}
+
 }  // namespace
 
 std::vector<std::string> figure_names() {
-  std::vector<std::string> names{"chain_10",
-                                 "chain_100",
-                                 "chain_100_digest",
-                                 "multirate_100",
-                                 "let_multirate_100",
-                                 "fan_100",
-                                 "coprime_100000",
-                                 "record",
-                                 "record_digest",
-                                 "workers_2_tiny",
-                                 "workers_2_10us",
-                                 "deep_1k",
-                                 "fault",
-                                 "guard",
-                                 "load_1000",
-                                 "load_million",
-                                 "check_1000",
-                                 "check_10000",
-                                 "port_throughput",
-                                 "port_round_trip",
-                                 "push_port_throughput",
-                                 "push_port_round_trip",
-                                 "clock_1khz_p50",
-                                 "clock_1khz_p99",
-                                 "udp_echo",
-                                 "watched_0",
-                                 "watched_1",
-                                 "watched_100",
-                                 "watched_slow",
-                                 "layout_200"};
-  if (has_vehicles()) names.insert(names.end(), {"dive", "dive_rigid", "hover", "hover_rigid", "checkpoint"});
+  std::vector<std::string> names;
+  for (const Entry& entry : entries()) names.push_back(entry.name);
   return names;
 }
 
 Figure measure(const std::string& name, int repeats) {
-  if (name == "chain_10") return chain_figure(name, 10, false, 0.85, repeats);
-  if (name == "chain_100") return chain_figure(name, 100, false, 0.85, repeats);
-  if (name == "chain_100_digest") return chain_figure(name, 100, true, 1.3, repeats);
-  if (name == "multirate_100")
-    return compare(name, "activation of 100 tasks at 1, 2, 5, 10 ms / plain loop with two copies", 1.0, repeats,
-                   run_of(chain(100, four_rates), false, four_rate_activations), chain_floor(100));
-  if (name == "let_multirate_100")
-    return compare(name, "activation of 100 LET tasks at 1, 2, 5, 10 ms / plain fan", 1.5, repeats,
-                   run_of(chain(100, four_rates_let), false, four_rate_activations), fan_floor(100));
-  if (name == "fan_100")
-    return compare(name, "activation of a fan of 100 / plain fan", 1.9, repeats, run_of(fan(100), false, 101),
-                   fan_floor(100));
-  if (name == "coprime_100000") return coprime_figure(name, repeats);
-  if (name == "record") return measure_recording(name, false, 40, repeats);
-  if (name == "record_digest") return measure_recording(name, true, 60, repeats);
-  if (name == "workers_2_tiny") return measure_tiny(repeats);
-  if (name == "workers_2_10us") return measure_10us(repeats);
-  if (name == "deep_1k") return measure_deep(repeats);
-  if (name == "fault") return fault_figure(repeats);
-  if (name == "guard") return measure_guard(name, repeats);
-  if (name == "load_1000") return load_figure(repeats);
-  if (name == "load_million") return load_million(name);
-  if (name == "check_1000") return measure_check(name, 1000, 30, repeats);
-  if (name == "check_10000") return measure_check(name, 10'000, 350, repeats);
-  if (name == "port_throughput") return measure_port_throughput(name, repeats);
-  if (name == "port_round_trip") return measure_port_round_trip(name, repeats);
-  if (name == "push_port_throughput") return measure_push_port_throughput(name, repeats);
-  if (name == "push_port_round_trip") return measure_push_port_round_trip(name, repeats);
-  if (name == "clock_1khz_p50") return measure_clock(name, 0.5, repeats);
-  if (name == "clock_1khz_p99") return measure_clock(name, 0.99, repeats);
-  if (name == "udp_echo") return measure_udp_echo(name, repeats);
-  if (name == "watched_0") return measure_watched(name, 0, true, repeats);
-  if (name == "watched_1") return measure_watched(name, 1, true, repeats);
-  if (name == "watched_100") return measure_watched(name, 100, true, repeats);
-  if (name == "watched_slow") return measure_watched(name, 1, false, repeats);
-  if (name == "layout_200") return measure_layout(name, repeats);
-  if (name == "dive") return measure_dive(repeats);
-  if (name == "dive_rigid") return measure_dive_rigid(repeats);
-  if (name == "hover") return measure_hover(repeats);
-  if (name == "hover_rigid") return measure_hover_rigid(repeats);
-  if (name == "checkpoint") return measure_checkpoint(repeats);
+  for (const Entry& entry : entries())
+    if (entry.name == name) return entry.measure(name, repeats);
   throw std::invalid_argument("there is no figure '" + name + "'" + did_you_mean(name, figure_names()) +
                               "; there are: " + list_of(figure_names()));
 }

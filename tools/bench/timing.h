@@ -32,7 +32,7 @@ class GraphRun {
   Duration until_{};
 };
 
-/// Interleaves the two and takes the least of each: what neighbours on the machine add is left out.
+/// Interleaves the two and takes the minimum of each: what neighbours on the machine add is left out.
 Figure compare(std::string name, std::string text, double goal, int repeats, const std::function<double()>& value,
                const std::function<double()>& floor);
 

@@ -127,7 +127,7 @@ void add_doctor(CommandLine& line, int& exit_code) {
   auto options = std::make_shared<DoctorOptions>();
   Command* command = line.add_subcommand(
       "doctor",
-      "Tell what this machine allows a program with deadlines, and how late its bare sleeps at 1 kHz end:\n"
+      "Shows what this machine allows a program with deadlines, and how late its bare sleeps at 1 kHz end:\n"
       "on the ordinary scheduler, and with SCHED_FIFO where that is permitted");
   command->add_option("--for", options->duration, "How long each of them is measured, as in 10s; default 1s");
   command->add_flag("--json", options->json, "One JSON object instead of text");

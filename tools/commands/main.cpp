@@ -1,9 +1,11 @@
 // The command `jarol`.
 #include <fcntl.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +27,15 @@ using namespace jarol;
 void keep_standard_streams() {
   for (const int stream : {0, 1, 2})
     if (::fcntl(stream, F_GETFD) == -1 && ::open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY) == -1) return;
+}
+
+// What runs over a stack so small does so before a crash can be reported.
+void require_stack() {
+  constexpr rlim_t least = 256 << 10;
+  rlimit stack{};
+  if (::getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur < least)
+    throw std::runtime_error("the stack is limited to " + std::to_string(stack.rlim_cur >> 10) +
+                             " KiB; it needs 256 KiB, as 'ulimit -s 256' gives it");
 }
 
 // "jarol help" and "jarol help run" ask for what "jarol --help" and "jarol run --help" do.
@@ -51,6 +62,7 @@ int run_command(int argc, char** argv) {
   int exit_code = tools::exit_good;
   tools::CommandLine line = tools::make_command_line(exit_code);
   try {
+    require_stack();
     if (argc == 1) {
       std::cout << line.help();
       return tools::exit_input;

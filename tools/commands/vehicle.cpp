@@ -139,7 +139,7 @@ int serve(const VehicleCommandOptions& options, const vehicles::VehicleClass& ve
   return exit_code;
 }
 
-// A vehicle on TCP is the one that listens, unless it is told whom to connect to.
+// A vehicle on TCP is the one that listens, unless an option says whom to connect to.
 void choose_tcp_end(VehicleCommandOptions& options) {
   if (options.link.empty() || options.link.front().second != "tcp") return;
   const bool dials =

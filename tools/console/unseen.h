@@ -21,7 +21,7 @@ class Unseen {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// A message that tells of that time was sent.
+  /// A message that reports on that time was sent.
   void send(Time of, Time now);
 
   /// The page has seen so many since it came. Throws std::invalid_argument where that is less than before, or more than

@@ -134,7 +134,7 @@ class XmlReader {
     const std::string text = node.attribute(attribute).value();
     const auto integer = parse_integer(text);
     if (integer && fits(*integer, "int64_t")) {
-      // modulo 2^64, so that the least of all comes out right
+      // modulo 2^64, so that the minimum comes out right
       const auto value = static_cast<std::int64_t>(integer->negative ? 0 - integer->magnitude : integer->magnitude);
       if (value >= min && value <= max) return value;
     }

@@ -4,6 +4,7 @@
 
 #include "distributers/distributers.h"
 #include "distributers/interfaces/any_distributer.h"
+#include "distributers/links/udp.h"
 #include "graph/language/tables.h"
 #include "tools/report/key_schema.h"
 #include "tools/report/value_schema.h"
@@ -38,7 +39,10 @@ Json link_schema(const LinkType& type) {
   std::vector<std::string> ends;
   for (const KeyDescription& key : type.keys)
     if (key.form == Form::address) ends.push_back(key.name);
-  if (ends.size() == 2) schema["allOf"] = Json::array({not_both(ends[0], ends[1]), not_both(ends[1], ends[0])});
+  Json all = Json::array();
+  if (ends.size() == 2) all = {not_both(ends[0], ends[1]), not_both(ends[1], ends[0])};
+  for (const auto& [one, other] : type.not_together) all.push_back({{"not", {{"required", {one, other}}}}});
+  if (!all.empty()) schema["allOf"] = std::move(all);
   return schema;
 }
 
@@ -61,6 +65,7 @@ Json when(const std::string& key, const std::string& value, Json then) {
 Json rules_of(const DistributerClass& distributer, const distributers::Registries& known) {
   Json link{{"properties", {{"type", {{"enum", links_of(distributer, known.links)}}}}}};
   limit_ids(distributer, link);
+  if (!distributers::why_one_peer(distributer).empty()) link["properties"]["peers"] = false;
   Json properties{{"link", std::move(link)}};
   properties["parameters"] = distributer.parameters == nullptr ? Json(false) : fields_schema(*distributer.parameters);
   return {{"properties", std::move(properties)}};

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "distributers/messages/javiator_units.h"
+#include "graph/math/euler_angles.h"
 #include "graph/math/rotations.h"
 #include "graph/values/seed.h"
 #include "vehicles/helicopter/coefficients.h"
@@ -144,19 +145,9 @@ void Helicopter::serialize(Archive& archive) {
 
 VehicleState Helicopter::state() const {
   const HelicopterMotion m = plant_->motion();
-  const auto& R = m.R_nb;
-  return {m.p_n[0],
-          m.p_n[1],
-          m.p_n[2],
-          std::atan2(R[2][1], R[2][2]),
-          -std::asin(std::clamp(R[2][0], -1.0, 1.0)),
-          std::atan2(R[1][0], R[0][0]),
-          m.v_b[0],
-          m.v_b[1],
-          m.v_b[2],
-          m.omega_b[0],
-          m.omega_b[1],
-          m.omega_b[2]};
+  const EulerAngles attitude = euler_angles_of(m.R_nb);
+  return {m.p_n[0], m.p_n[1], m.p_n[2], attitude.roll, attitude.pitch, attitude.yaw,
+          m.v_b[0], m.v_b[1], m.v_b[2], m.omega_b[0],  m.omega_b[1],   m.omega_b[2]};
 }
 
 void Helicopter::place(const VehicleState& s) {

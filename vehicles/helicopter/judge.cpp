@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "graph/math/euler_angles.h"
+#include "graph/math/geometry.h"
 #include "vehicles/helicopter/coefficients.h"
 #include "vehicles/helicopter/robostix.h"
 
@@ -14,7 +16,7 @@ namespace {
 
 constexpr double airborne = 0.02;  // m, of the lowest foot above the ground
 
-double yaw_of(const HelicopterMotion& motion) { return std::atan2(motion.R_nb[1][0], motion.R_nb[0][0]); }
+double yaw_of(const HelicopterMotion& motion) { return euler_angles_of(motion.R_nb).yaw; }
 
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 
@@ -40,9 +42,10 @@ void HelicopterJudge::find_truth() const {
   const HelicopterMotion& m = last_;
   const auto& R = m.R_nb;
   const fossen::Vector3 v_n = to_ned(R, m.v_b);
-  truth_.roll = std::atan2(R[2][1], R[2][2]);
-  truth_.pitch = -std::asin(std::clamp(R[2][0], -1.0, 1.0));
-  truth_.yaw = std::remainder(yaw_of(m) - start_yaw_, 2.0 * std::numbers::pi);
+  const EulerAngles attitude = euler_angles_of(R);
+  truth_.roll = attitude.roll;
+  truth_.pitch = attitude.pitch;
+  truth_.yaw = wrapped(attitude.yaw - start_yaw_);
   truth_.x = m.p_n[0] - start_.p_n[0];
   truth_.y = m.p_n[1] - start_.p_n[1];
   truth_.altitude = start_.p_n[2] - m.p_n[2];

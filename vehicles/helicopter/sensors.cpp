@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "graph/math/euler_angles.h"
+#include "graph/math/geometry.h"
 #include "graph/values/seed.h"
 #include "vehicles/helicopter/coefficients.h"
 
@@ -44,7 +46,7 @@ std::uint16_t to_counts(double value, double limit) {
 
 // an angle's 16 bits go all the way round
 std::int16_t to_angle(double radians) {
-  const auto counts = std::lround(std::remainder(radians, 2.0 * std::numbers::pi) * 65536.0 / (2.0 * std::numbers::pi));
+  const auto counts = std::lround(wrapped(radians) * 65536.0 / (2.0 * std::numbers::pi));
   return static_cast<std::int16_t>(std::clamp(counts, -32768L, 32767L));
 }
 
@@ -175,9 +177,10 @@ void HelicopterSensors::sample_imu(std::int64_t nanoseconds, const Scene& scene)
     const HelicopterMotion& m = scene.motion;
     const auto noisy = [&](double deviation) { return error.noise * deviation * imu_noise_.normal(); };
     const auto angle = [&](double value) { return to_angle(value + noisy(deviations_.attitude)); };
-    data_.roll = angle(std::atan2(m.R_nb[2][1], m.R_nb[2][2]) + error.bias);
-    data_.pitch = angle(-std::asin(std::clamp(m.R_nb[2][0], -1.0, 1.0)));
-    data_.yaw = angle(std::atan2(m.R_nb[1][0], m.R_nb[0][0]));
+    const EulerAngles attitude = euler_angles_of(m.R_nb);
+    data_.roll = angle(attitude.roll + error.bias);
+    data_.pitch = angle(attitude.pitch);
+    data_.yaw = angle(attitude.yaw);
     const auto rate = [&](std::size_t i) {
       const double value = m.omega_b[i] + rate_bias_[i] + noisy(deviations_.rate);
       return to_int16(value * 1e3 * 32768.0 / 8500.0);

@@ -4,11 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace jarol::vehicles {
-namespace {
-constexpr double pi = 3.14159265358979323846, gravity = 9.81;
-}
+#include "graph/math/geometry.h"
 
+namespace jarol::vehicles {
 Waves::Waves(double height, double period, double direction)
     : amplitude_(0.5 * height), north_(std::cos(direction)), east_(std::sin(direction)) {
   if (height == 0.0) return;

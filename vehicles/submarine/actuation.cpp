@@ -1,9 +1,9 @@
 #include "vehicles/submarine/actuation.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "graph/math/geometry.h"
 #include "graph/values/seed.h"
 #include "vehicles/submarine/motion.h"
 
@@ -31,13 +31,13 @@ SubmarineActuation::SubmarineActuation(const SubmarineParameters& parameters, st
 
 void SubmarineActuation::command_thruster(double actuation) {
   if (!std::isfinite(actuation)) return;
-  thruster_command_ = std::clamp(actuation, -1.0, 1.0);
+  thruster_command_ = limited(actuation, 1.0);
   thruster_silence_ = 0;
 }
 
 void SubmarineActuation::command_servo(std::size_t servo, double angle) {
   if (servo >= servo_commands_.size() || !std::isfinite(angle)) return;
-  servo_commands_[servo] = std::clamp(angle, -servo_parameters_.limit, servo_parameters_.limit);
+  servo_commands_[servo] = limited(angle, servo_parameters_.limit);
   servo_silence_[servo] = 0;
 }
 
@@ -57,7 +57,7 @@ SubmarineInput SubmarineActuation::step(bool powered) {
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     const double before = servos_[i];
     const double command = failing_fins_[i].command(now, servo_commands_[i], servo_parameters_.limit);
-    if (!failing_fins_[i].is_stuck(now)) servos_[i] += std::clamp(command - before, -reach, reach);
+    if (!failing_fins_[i].is_stuck(now)) servos_[i] += limited(command - before, reach);
     const double part = failing_fins_[i].part(now);  // lift grows with the angle
     input.fins[i] = part * (at_start_of_step_ ? before : 0.5 * (before + servos_[i]));
   }

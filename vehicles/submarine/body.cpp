@@ -1,8 +1,9 @@
 #include "vehicles/submarine/body.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
+
+#include "graph/math/geometry.h"
 
 namespace jarol::vehicles {
 namespace {
@@ -22,7 +23,7 @@ double wetted(const Immersion& at, const Vector3& r_b, double reach) {
 
 // thin plate: lift and drag from the flow along the hull; sideward flow is in the lift of the hull with fins
 Vector6 fin_force(const SubmarineBody& body, const SubmarineBody::Fin& fin, double angle, double u) {
-  const double alpha = std::clamp(angle, -body.fin_stall, body.fin_stall);
+  const double alpha = limited(angle, body.fin_stall);
   const double lift = body.fin_lift * alpha * u * std::abs(u);
   const double drag = body.fin_drag * alpha * alpha * u * std::abs(u);
   const Vector3 force = {lift * fin.lift_b[0] - drag, lift * fin.lift_b[1], lift * fin.lift_b[2]};
@@ -44,7 +45,7 @@ Vector6 moving_water_force(const SubmarineBody& body, const Surroundings& around
 
 double calc_thrust(const SubmarineBody::Propeller& propeller, double n, double speed) {
   const double thrust = (propeller.thrust * n - propeller.advance * speed) * std::abs(n);
-  return std::clamp(thrust, -propeller.limit, propeller.limit);
+  return limited(thrust, propeller.limit);
 }
 
 Vector6 calc_nu_dot(const SubmarineBody& body, const Surroundings& around, const Vector6& nu,

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "graph/math/euler_angles.h"
+#include "graph/math/geometry.h"
 
 namespace jarol::vehicles {
 namespace {
@@ -22,7 +24,6 @@ SubmarineJudge::SubmarineJudge(const SubmarineParameters& parameters, const Vehi
 }
 
 void SubmarineJudge::report_truth(const VehicleState& s) {
-  const double c_theta = std::cos(s.theta);
   truth_ = {.depth = s.z,
             .heading = s.psi,
             .speed = s.u,
@@ -31,7 +32,7 @@ void SubmarineJudge::report_truth(const VehicleState& s) {
             .x = s.x,
             .y = s.y,
             .altitude = parameters_.sea.floor - s.z - calc_reach(parameters_.hull, s.theta),
-            .sinking = -std::sin(s.theta) * s.u + c_theta * (std::sin(s.phi) * s.v + std::cos(s.phi) * s.w),
+            .sinking = sinking(s.phi, s.theta, s.u, s.v, s.w),
             .turn_rate = s.r};
 }
 
@@ -39,7 +40,7 @@ void SubmarineJudge::look(std::chrono::nanoseconds instant, const VehicleState& 
   report_truth(state);
   if (mishap_) return;
   const DiveLimitParameters& limits = parameters_.limits;
-  const double tilt = std::acos(std::clamp(std::cos(state.phi) * std::cos(state.theta), -1.0, 1.0));
+  const double tilt = std::acos(limited(down_in_body(state.phi, state.theta)[2], 1.0));
   const auto degrees = [](double radians) { return radians * 180.0 / std::numbers::pi; };
   // there is no sea floor where it moves as DUNE's simulator has it
   if (truth_.altitude <= 0 && !parameters_.vsim_compatible) {

@@ -1,10 +1,9 @@
 #include "vehicles/submarine/plant.h"
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "distributers/interfaces/no_state.h"
+#include "graph/math/euler_angles.h"
 #include "vehicles/mechanics/force_with_input.h"
 #include "vehicles/mechanics/frames.h"
 #include "vehicles/mechanics/integrator_archive.h"
@@ -126,9 +125,10 @@ PlantState SubmarinePlant::state() const {
 
   PlantState out;
   for (std::size_t i = 0; i < 3; ++i) out.eta[i] = p_n[static_cast<int>(i)];
-  out.eta[3] = std::atan2(R_nb[2][1], R_nb[2][2]);
-  out.eta[4] = -std::asin(std::clamp(R_nb[2][0], -1.0, 1.0));
-  out.eta[5] = std::atan2(R_nb[1][0], R_nb[0][0]);
+  const EulerAngles attitude = euler_angles_of(R_nb);
+  out.eta[3] = attitude.roll;
+  out.eta[4] = attitude.pitch;
+  out.eta[5] = attitude.yaw;
   out.nu = to_body(R_nb, simulation_->body.getBodyVelocity(state));
   out.nu_dot = simulation_->hydrodynamics->acceleration(state);
   return out;

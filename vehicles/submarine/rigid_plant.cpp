@@ -1,6 +1,5 @@
 #include "vehicles/submarine/rigid_plant.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -55,9 +54,10 @@ PlantState RigidSubmarine::state() const {
   const Eigen::Matrix3d R_nb = state_.R_nb();
   PlantState out;
   for (std::size_t i = 0; i < 3; ++i) out.eta[i] = state_.p_n[static_cast<Eigen::Index>(i)];
-  out.eta[3] = std::atan2(R_nb(2, 1), R_nb(2, 2));
-  out.eta[4] = -std::asin(std::clamp(R_nb(2, 0), -1.0, 1.0));
-  out.eta[5] = std::atan2(R_nb(1, 0), R_nb(0, 0));
+  const EulerAngles attitude = euler_angles_of(R_nb);
+  out.eta[3] = attitude.roll;
+  out.eta[4] = attitude.pitch;
+  out.eta[5] = attitude.yaw;
   const Vector6d nu = nu_of(state_, R_nb);
   out.nu = plain(nu);
   out.nu_dot = acceleration(state_.p_n, nu, R_nb, static_cast<double>(steps_) * step_seconds);

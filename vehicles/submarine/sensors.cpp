@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "distributers/messages/imc.h"
 #include "distributers/messages/payload.h"
+#include "graph/math/euler_angles.h"
 #include "graph/math/geometry.h"
 #include "vehicles/sea/sea_water.h"
 
@@ -92,8 +92,7 @@ void SubmarineSensors::serialize(Archive& archive) {
 void SubmarineSensors::step(std::int64_t step, const SubmarineScene& scene) {
   using Values = Sensor::Values;
   const fossen::Vector6 &eta = scene.at.eta, &nu = scene.at.nu, &nu_dot = scene.at.nu_dot;
-  const double c_theta = std::cos(eta[4]);
-  const fossen::Vector3 down_b = {-std::sin(eta[4]), c_theta * std::sin(eta[3]), c_theta * std::cos(eta[3])};
+  const fossen::Vector3 down_b = down_in_body(eta[3], eta[4]);
   seconds_ = static_cast<double>(step) * SubmarineMotion::step_seconds;
   step_ = step;
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "distributers/interfaces/no_state.h"
+#include "graph/math/geometry.h"
 #include "graph/math/rotations.h"
 #include "vehicles/submarine/coefficients.h"
 
@@ -22,7 +22,7 @@ void add(Vector6& sum, const Vector6& term) {
 Vector6 actuator_force(const SubmarineBody& body, const SubmarineInput& input, double speed, double z) {
   double side = 0.0, down = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
-    const double lift = body.fin_lift * std::clamp(input.fins[i], -body.fin_stall, body.fin_stall) * speed * speed;
+    const double lift = body.fin_lift * limited(input.fins[i], body.fin_stall) * speed * speed;
     (i % 3 == 0 ? side : down) += i % 3 == 0 ? lift : -lift;
   }
   const double x = body.fins[0].r_b[0];
@@ -106,8 +106,8 @@ void VsimPlant::step(const SubmarineInput& input) {
     sum += std::abs(state_.nu[i]) + std::abs(state_.eta[i]);
   }
   state_.eta[2] = std::max(0.0, state_.eta[2]);
-  state_.eta[3] = std::remainder(state_.eta[3], 2.0 * std::numbers::pi);
-  state_.eta[5] = std::remainder(state_.eta[5], 2.0 * std::numbers::pi);
+  state_.eta[3] = wrapped(state_.eta[3]);
+  state_.eta[5] = wrapped(state_.eta[5]);
   ++steps_;
   if (!std::isfinite(sum))
     throw NoState("submarine: no state at t = " + std::to_string(static_cast<double>(steps_) * step_seconds) +

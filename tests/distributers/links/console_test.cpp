@@ -15,7 +15,7 @@ using namespace jarol;
 using namespace jarol::distributers;
 using namespace std::chrono_literals;
 
-// Channels of the helicopter's operator, as a graph has them.
+// The external system of the helicopter's operator, as a graph has them.
 struct Channelled {
   DistributerClass operator_class = distributer_class<JaviatorOperator>();
   ConsoleSystem channels{operator_class.make(Value(*operator_class.parameters).data())};

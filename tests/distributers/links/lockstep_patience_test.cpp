@@ -27,7 +27,7 @@ using namespace std::chrono_literals;
 namespace javiator = messages::javiator;
 using Bytes = std::vector<std::byte>;
 
-constexpr auto patience = 400ms;
+constexpr auto short_patience = 400ms;
 
 Bytes frame(FrameKind kind, const Bytes& content = {}) {
   Bytes bytes;
@@ -88,7 +88,7 @@ void say(const Descriptor& to, const Bytes& bytes) {
 std::string said_with(const Address& address, std::optional<SecretKey> key = {}) {
   try {
     LockstepSystem channels(address, 0, std::make_unique<Typed<JaviatorVehicle>>(),
-                            [](Duration) { return std::string(); }, {.key = key, .patience = patience});
+                            [](Duration) { return std::string(); }, {.key = key, .patience = short_patience});
     channels.begin();
     channels.reach(Duration{});
   } catch (const FrameError& error) {
@@ -112,7 +112,7 @@ class EmptyBox : public vehicles::Vehicle {
 
 // A vehicle's process; what it says of its runners.
 struct Server {
-  explicit Server(std::optional<SecretKey> key = {}, std::chrono::milliseconds patience = ::patience) {
+  explicit Server(std::optional<SecretKey> key = {}, std::chrono::milliseconds patience = short_patience) {
     thread = std::thread([this, key, patience] {
       LockstepService service{.set = javiator::message_set(),
                               .make = [](std::uint64_t) { return std::make_unique<EmptyBox>(); },
@@ -164,7 +164,7 @@ struct Runner {
   std::string name;
 };
 
-SecretKey key_of(int seed) {
+SecretKey secret_of(int seed) {
   SecretKey key{};
   key.fill(static_cast<std::byte>(seed));
   return key;
@@ -204,7 +204,7 @@ TEST_SUITE("distributers/links/lockstep_patience") {
   }
 
   TEST_CASE("those who connect and say nothing keep the vehicle from nobody, with a key or without, however many") {
-    for (const auto& key : {std::optional<SecretKey>(), std::optional(key_of(1))}) {
+    for (const auto& key : {std::optional<SecretKey>(), std::optional(secret_of(1))}) {
       Server server(key, 1h);
       std::vector<Runner> mute;
       for (int i = 0; i < 20; ++i) mute.emplace_back(server.address);
@@ -234,7 +234,7 @@ TEST_SUITE("distributers/links/lockstep_patience") {
     const Runner first(server.address);
     first.begin();
     say(first.socket, frame(FrameKind::sense));
-    std::this_thread::sleep_for(2 * patience);
+    std::this_thread::sleep_for(2 * short_patience);
     for (int i = 0; i < 50 && said_with(server.address) != ""; ++i) std::this_thread::sleep_for(100ms);
     CHECK(server.says(first.name + " has been silent for 400ms and makes room for another"));
     CHECK(said_with(server.address) == "");
@@ -260,16 +260,16 @@ TEST_SUITE("distributers/links/lockstep_patience") {
   }
 
   TEST_CASE("with a key both ends have to have it") {
-    Server sealed(key_of(1)), open;
-    CHECK(said_with(sealed.address, key_of(1)) == "");
-    CHECK(said_with(sealed.address, key_of(2)) == "has another key");
+    Server sealed(secret_of(1)), open;
+    CHECK(said_with(sealed.address, secret_of(1)) == "");
+    CHECK(said_with(sealed.address, secret_of(2)) == "has another key");
     CHECK(said_with(sealed.address) == "asks for a key; both ends need the same, or none");
-    CHECK(said_with(open.address, key_of(1)) == "has no key; both ends need the same, or none");
-    CHECK(said_with(sealed.address, key_of(1)) == "");
+    CHECK(said_with(open.address, secret_of(1)) == "has no key; both ends need the same, or none");
+    CHECK(said_with(sealed.address, secret_of(1)) == "");
   }
 
   TEST_CASE("a frame that somebody changes on its way ends the run") {
-    Server server(key_of(1));
+    Server server(secret_of(1));
     const Descriptor door = listen_at(Address::parse("0"));
     const Address address = Address::parse(std::to_string(port_of(door)));
     std::thread between([&] {
@@ -300,7 +300,8 @@ TEST_SUITE("distributers/links/lockstep_patience") {
     std::string said;
     try {
       LockstepSystem channels(address, 0, std::make_unique<Typed<JaviatorVehicle>>(),
-                              [](Duration) { return std::string(); }, {.key = key_of(1), .patience = patience});
+                              [](Duration) { return std::string(); },
+                              {.key = secret_of(1), .patience = short_patience});
       channels.begin();
       for (int i = 0; i < 100; ++i) channels.reach(i * 5ms);
     } catch (const FrameError& error) { said = error.what(); }

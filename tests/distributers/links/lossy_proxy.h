@@ -33,7 +33,7 @@ struct ProxyCounts {
   std::uint64_t damaged = 0;
 };
 
-/// What happens to the pieces of one direction: which of them are lost and so on hangs on the seed and their order
+/// What happens to the pieces of one direction: which of them are lost and so on depends on the seed and their order
 /// alone.
 class Disturbed {
  public:

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <span>
@@ -69,6 +70,28 @@ class Speaker {
   bool hears() const {
     std::byte byte{};
     return ::recv(socket_.get(), &byte, 1, MSG_DONTWAIT | MSG_PEEK) > 0;
+  }
+  /// The next datagram that has come; empty: there is none.
+  std::vector<std::byte> heard() const {
+    std::vector<std::byte> bytes(2000);
+    const ssize_t length = ::recv(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT);
+    bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(length, 0)));
+    return bytes;
+  }
+  /// Of so many motor signals that come, the ids.
+  std::vector<int> ids(std::size_t count) const {
+    std::vector<int> ids;
+    messages::PacketReader reader(messages::javiator::message_set());
+    wait_for([&] {
+      while (ids.size() < count) {
+        const auto bytes = heard();
+        if (bytes.empty()) break;
+        if (reader.read(bytes) == messages::PacketError::none)
+          ids.push_back(reader.message().as<messages::javiator::MotorSignals>()->id);
+      }
+      return ids.size() == count;
+    });
+    return ids;
   }
   bool is_ended() const {
     char room[4096];

@@ -11,7 +11,7 @@
 namespace jarol::tests {
 
 /// What happens to the bytes of one direction. They are cut into pieces, none of which overtakes another; where, and
-/// which are lost, doubled and damaged, hangs on the seed and the number of bytes before them alone.
+/// which are lost, doubled and damaged, depends on the seed and the number of bytes before them alone.
 class DisturbedStream {
  public:
   using Clock = Disturbed::Clock;

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "distributers/messages/packet.h"
+#include "distributers/messages/payload.h"
 #include "distributers/messages/stream_reader.h"
 #include "tests/distributers/messages/damage.h"
 
@@ -58,6 +59,29 @@ TEST_SUITE("distributers/messages/mutations") {
       MESSAGE(taken << " taken, " << refused << " refused");
       CHECK(taken > 0);
       CHECK(refused > 0);
+    }
+  }
+
+  TEST_CASE("what is checked alone gets the same answer, in the same words, as what is read") {
+    for (const Protocol& protocol : protocols()) {
+      Random random(3);
+      PacketReader checker(protocol.set);
+      const std::vector<Bytes> packets = protocol.packets();
+      for (int i = 0; i < packet_count() / 10; ++i) {
+        Bytes bytes = packets[below(random, packets.size())];
+        damage_fields(protocol, bytes, random);
+        std::string of_check, of_payload;
+        const bool good = checker.check(bytes, &of_check) == PacketError::none;
+        // the message as it would be taken out, by its own rules
+        const Announced announced = read_header(protocol.set, bytes.data(), *order_of(protocol.set, bytes.data()));
+        const auto payload = std::span<const std::byte>(bytes).subspan(protocol.set.header_size(), announced.payload);
+        const MessageDescriptor* const form = protocol.set.find(announced.id, announced.payload);
+        REQUIRE(form != nullptr);
+        Message message(*form);
+        REQUIRE(read_payload(*form, *order_of(protocol.set, bytes.data()), payload, message.value(), &of_payload) ==
+                good);
+        REQUIRE(of_payload == of_check);
+      }
     }
   }
 

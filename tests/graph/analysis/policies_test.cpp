@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include "graph/analysis/check.h"
+#include "graph/language/problems.h"
+#include "graph/registry.h"
 #include "tests/graph/graph_of.h"
 
 namespace {
@@ -29,7 +31,7 @@ const std::string counting = "graph: t\ntasks: {a: {type: Counter, period: 1s, w
 TEST_SUITE("graph/analysis/policies") {
   TEST_CASE("each policy has a name of its own, says how tasks run, and is found in the registry") {
     const Registry& registry = tests::generic_tasks();
-    REQUIRE(analysis::built_in_policies().size() == 6);
+    REQUIRE(!analysis::built_in_policies().empty());
     CHECK(registry.policies() == analysis::built_in_policies());
     for (const Policy& policy : analysis::built_in_policies()) {
       CAPTURE(policy.name);
@@ -78,16 +80,14 @@ TEST_SUITE("graph/analysis/policies") {
 
   TEST_CASE("what is no policy is refused with those that the registry has") {
     const std::string line = counting + "platform: {policy: ";
+    const std::string all = list_of(names_of(analysis::built_in_policies()));
     CHECK(tests::report_on(line + "round}\n")
-              .find("t.yaml:3:20: error: 'platform' key 'policy' can't be 'round'; it is one of table, fixed_priority, "
-                    "edf, "
-                    "fixed_priority_nonpreemptive, edf_nonpreemptive, global_edf\n") == 0);
+              .find("t.yaml:3:20: error: 'platform' key 'policy' can't be 'round'; it is one of " + all + "\n") == 0);
     CHECK(
         tests::report_on(line + "fixed_prioritys}\n").find("; did you mean 'fixed_priority'?; it is one of table, ") !=
         std::string::npos);
     CHECK(tests::report_on(line + "[edf]}\n")
-              .find("t.yaml:3:20: error: 'platform' key 'policy' needs one of table, fixed_priority, edf, "
-                    "fixed_priority_nonpreemptive, edf_nonpreemptive, global_edf, not a list\n") == 0);
+              .find("t.yaml:3:20: error: 'platform' key 'policy' needs one of " + all + ", not a list\n") == 0);
     CHECK(tests::report_on(line + "}\n") != "");
   }
 }

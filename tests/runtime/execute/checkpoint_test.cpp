@@ -14,7 +14,7 @@ namespace {
 using namespace jarol;
 using namespace std::chrono_literals;
 
-// Its texts grow and shrink, some are lost; what it knows hangs on which blocks of its heap are free.
+// Its texts grow and shrink, some are lost; what it knows depends on which blocks of its heap are free.
 struct Diary {
   static constexpr std::string_view summary = "for tests";
   struct In {

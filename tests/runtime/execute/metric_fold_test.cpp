@@ -90,8 +90,8 @@ TEST_SUITE("runtime/metric_fold") {
     CHECK(some > 2000);
   }
 
-  TEST_CASE("what is no number stays so in a greatest and a least value") {
-    for (const Reduction reduction : {Reduction::max, Reduction::min}) {
+  TEST_CASE("what is no number stays so in a greatest and a least value, and in an overshoot") {
+    for (const Reduction reduction : {Reduction::max, Reduction::min, Reduction::overshoot}) {
       Metric metric;
       metric.reduction = reduction;
       MetricFold fold(metric);

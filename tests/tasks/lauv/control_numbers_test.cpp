@@ -182,6 +182,30 @@ TEST_SUITE("tasks/lauv_control/numbers") {
     CHECK(c.state.integral == 0);
   }
 
+  TEST_CASE("driven astern against its command it puts all fins hard over: stern up, rudders to one side") {
+    struct Case {
+      double u;
+      Drive drive;
+      double thrust;
+      bool hard_over;
+    };
+    for (const auto& [u, drive, thrust, hard_over] : {Case{-0.26, Drive::speed, 0, true},
+                                                      {-0.26, Drive::thrust, 0.1, true},
+                                                      {-0.26, Drive::thrust, -0.1, false},
+                                                      {-0.24, Drive::speed, 0, false}}) {
+      CAPTURE(u);
+      CAPTURE(thrust);
+      Depth depth;
+      depth.in.motion = {.u = u};
+      depth.in.setpoint = {.drive = drive, .thrust = thrust};
+      CHECK(depth.run() == (hard_over ? 25 * degree : 0.0));
+      Heading heading;
+      heading.in.motion = {.u = u};
+      heading.in.setpoint = {.drive = drive, .thrust = thrust};
+      CHECK(heading.run() == (hard_over ? 25 * degree : 0.0));
+    }
+  }
+
   TEST_CASE("speed: a commanded thrust astern is limited, too") {
     Speed c;
     c.in.setpoint.drive = Drive::thrust;

@@ -141,7 +141,7 @@ TEST_SUITE("console/console") {
   TEST_CASE("pace and state are shown, and change for all") {
     const Loaded loaded = load(counting);
     const auto truth = no_truth(*loaded.graph);
-    tools::Pace pace(2.0);
+    jarol::Pace pace(2.0);
     Console console(
         Watched{.run = {*loaded.graph, "counting.yaml", "virtual", 1s, truth}, .server = {}, .pace = &pace});
     console.open();
@@ -156,7 +156,7 @@ TEST_SUITE("console/console") {
   TEST_CASE("where a page commands, it alone changes the pace, pauses and steps") {
     const Loaded loaded = load(counting);
     const auto truth = no_truth(*loaded.graph);
-    tools::Pace pace(2.0);
+    jarol::Pace pace(2.0);
     const auto port = std::make_shared<distributers::ConsolePort>(messages::javiator::message_set());
     Console console(Watched{.run = {*loaded.graph, "counting.yaml", "virtual", 1s, truth},
                             .server = {},
@@ -176,14 +176,14 @@ TEST_SUITE("console/console") {
       CHECK(other.read_with("error")["error"] ==
             "another page commands 'terminal'; only a page that commands alone changes the pace, pauses and steps");
     }
-    CHECK(pace.state() == tools::Pace::State{1.0, false});
+    CHECK(pace.state() == jarol::Pace::State{1.0, false});
     pilot.send(R"({"do": "pause"})");
     while (!pilot.read_with("paused")["paused"]) {}
     pilot.send(R"({"do": "release", "desk": "terminal"})");
     while (!other.read_with("desk")["desk"]["terminal"]["commander"].is_null()) {}
     other.send(R"({"do": "go_on"})");
     while (other.read_with("paused")["paused"]) {}
-    CHECK(pace.state() == tools::Pace::State{1.0, false});
+    CHECK(pace.state() == jarol::Pace::State{1.0, false});
   }
 
   TEST_CASE("run: watched or not, at any pace, a run is the same") {

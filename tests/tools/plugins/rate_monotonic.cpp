@@ -18,16 +18,16 @@ struct RateMonotonic {
 
   // what holds is the product of all 1 + utilisation, which is 2 at most (Bini, Buttazzo 2003)
   static Result check(const System& system, bool, Budget&) {
-    const auto against_one = compare_utilisation(system.models, 1);
+    const auto against_all = compare_utilisation(system.models, system.cores);
     double product = 1;
     for (const TaskModel& m : system.models) product *= 1 + static_cast<double>(m.wcet) / static_cast<double>(m.period);
     Result result;
-    if (!is_simple(system)) {
-      result.reason = "the hyperbolic bound is for tasks on one core that neither follow others nor wait";
-    } else if (against_one && *against_one > 0) {
+    if (against_all && *against_all > 0) {
       result.verdict = Verdict::not_schedulable;
       result.evidence = Evidence::proof;
-      result.reason = "the tasks need more than the core";
+      result.reason = "the tasks need more than all cores";
+    } else if (!is_simple(system)) {
+      result.reason = "the hyperbolic bound is for tasks on one core that neither follow others nor wait";
     } else if (product < 2 - 1e-9) {
       result.verdict = Verdict::schedulable;
       result.evidence = Evidence::safe;

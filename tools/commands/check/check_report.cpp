@@ -267,7 +267,8 @@ std::string to_text(const CheckReport& r) {
   if (r.result.verdict == Verdict::unknown &&
       std::any_of(r.graph->tasks.begin(), r.graph->tasks.end(), [](const Task& t) { return !t.wcet; }))
     text +=
-        "  'check --measure' tells how long they take here, 'check --write' writes that into the file with a margin\n";
+        "  'check --measure' measures how long they take here, 'check --write' writes that into the file with a "
+        "margin\n";
   return text;
 }
 

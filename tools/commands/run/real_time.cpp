@@ -177,6 +177,8 @@ std::string to_text(const LinkReport& link) {
     if (count > 0) counts += (counts.empty() ? "" : ", ") + std::to_string(count) + " " + name;
   std::string text =
       "  link        " + link.link + ": " + (counts.empty() ? "nothing came and nothing went" : counts) + "\n";
+  for (const LinkReport::Peer& peer : link.peers)
+    text += fmt::format("              peer {}, {} packets\n", peer.address, peer.packets);
   for (const LinkReport::Takeover& takeover : link.takeovers)
     text += fmt::format("              taken over by {} at {} s, after {} had been silent\n", takeover.to,
                         seconds_text(takeover.at), takeover.from);
@@ -194,16 +196,15 @@ std::string to_text(const LinkReport& link) {
 nlohmann::ordered_json to_json(const LinkReport& link) {
   auto counts = nlohmann::ordered_json::object();
   for (const auto& [name, count] : link.counts) counts[name] = count;
-  auto strangers = nlohmann::ordered_json::array(), takeovers = nlohmann::ordered_json::array();
+  auto peers = nlohmann::ordered_json::array(), strangers = peers, takeovers = peers;
+  for (const LinkReport::Peer& peer : link.peers)
+    peers.push_back({{"address", peer.address}, {"packets", peer.packets}});
   for (const LinkReport::Stranger& stranger : link.strangers)
     strangers.push_back({{"address", stranger.address}, {"times", stranger.times}});
   for (const LinkReport::Takeover& takeover : link.takeovers)
     takeovers.push_back({{"from", takeover.from}, {"to", takeover.to}, {"at_ns", takeover.at.count()}});
-  return {{"link", link.link},
-          {"heard", link.heard > 0},
-          {"counts", counts},
-          {"strangers", strangers},
-          {"more_strangers", link.more_strangers},
+  return {{"link", link.link},     {"heard", link.heard > 0}, {"counts", counts},
+          {"peers", peers},        {"strangers", strangers},  {"more_strangers", link.more_strangers},
           {"takeovers", takeovers}};
 }
 

@@ -234,21 +234,25 @@ chains:
   }
 #endif
 
-  TEST_CASE("strangers and takeovers of a link are in its report, as text and as JSON") {
+  TEST_CASE("peers, strangers and takeovers of a link are in its report, as text and as JSON") {
     jarol::LinkReport link;
     link.link = "udp 127.0.0.1:7002";
     link.counts = {{"packets in", 5}};
     link.heard = 5;
+    link.peers = {{"127.0.0.1:4001", 3}, {"127.0.0.1:4002", 2}};
     link.strangers = {{"127.0.0.1:5000", 12}};
     link.more_strangers = 3;
     link.takeovers = {{"127.0.0.1:4000", "127.0.0.1:4001", std::chrono::milliseconds(12340)}};
     CHECK(jarol::tools::to_text(link) ==
           "  link        udp 127.0.0.1:7002: 5 packets in\n"
+          "              peer 127.0.0.1:4001, 3 packets\n"
+          "              peer 127.0.0.1:4002, 2 packets\n"
           "              taken over by 127.0.0.1:4001 at 12.34 s, after 127.0.0.1:4000 had been silent\n"
           "              stranger 127.0.0.1:5000, 12 times\n"
           "              more strangers, 3 times\n");
     CHECK(jarol::tools::to_json(link).dump() ==
           R"({"link":"udp 127.0.0.1:7002","heard":true,"counts":{"packets in":5},)"
+          R"("peers":[{"address":"127.0.0.1:4001","packets":3},{"address":"127.0.0.1:4002","packets":2}],)"
           R"("strangers":[{"address":"127.0.0.1:5000","times":12}],"more_strangers":3,)"
           R"("takeovers":[{"from":"127.0.0.1:4000","to":"127.0.0.1:4001","at_ns":12340000000}]})");
   }
