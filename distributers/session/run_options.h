@@ -29,6 +29,7 @@ struct RunOptions {
   std::size_t workers = 1;  // threads that run tasks on the virtual clock; the outcome is the same for any number
   RealTimeOptions real_time{};  // on the real clock: priority and CPUs
   bool force = false;           // on the real clock: also what check has a negative verdict on
+  bool note_force = false;      // `note` gets that verdict
   std::string no_guardian{};    // on the real clock: why no process hands over `safe` when this one is gone; empty: one
                                 // does
   std::string execution{};      // on the virtual clock, what activations take: wcet, random, a file; empty: no time

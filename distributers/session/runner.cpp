@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 #include <utility>
 
 #include "distributers/session/real_time.h"
@@ -20,12 +21,16 @@ void require_clock(const RunOptions& options, const Loaded& loaded) {
                          options.words.real_clock);
 }
 
-void require_workers(const RunOptions& options) {
-  if (options.workers < 1 || options.workers > max_workers)
-    throw NotExecutable("a run has 1 to " + std::to_string(max_workers) + " workers, not " +
-                        std::to_string(options.workers));
-  if (options.real_clock && options.workers > 1)
+// What the virtual clock alone has.
+void require_options_of_clock(const RunOptions& options) {
+  require_workers(options.workers);
+  if (!options.real_clock) return;
+  if (options.workers > 1)
     throw NotExecutable(options.words.workers + " belongs to the virtual clock; the real one goes by 'platform'");
+  if (!options.execution.empty())
+    throw std::invalid_argument(options.words.execution +
+                                " belongs to the virtual clock; on the real one activations take the time that they "
+                                "take");
 }
 
 void require_end(const RunOptions& options, Duration begun) {
@@ -66,7 +71,7 @@ Runner::~Runner() = default;
 void Runner::require_runnable(const RunOptions& options, const Loaded& loaded) {
   require_end(options, begin_of(options));
   require_clock(options, loaded);
-  require_workers(options);
+  require_options_of_clock(options);
 }
 
 void Runner::make_clock(const Loaded& loaded) {
@@ -74,7 +79,7 @@ void Runner::make_clock(const Loaded& loaded) {
   RealTimeOptions real_time = options_.real_time;
   longest_rest_ = jarol::longest_rest(graph);
   if (!options_.threads) {
-    require_executable(name_, graph, options_.force, options_.note, options_.words);
+    require_executable(name_, graph, options_);
     task_threads_ = threads_for(name_, graph, real_time, options_.words);
     clock_.emplace(graph.tasks.size(), real_time);
   }

@@ -1,6 +1,7 @@
 #include "distributers/session/session_run.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "graph/floating_point.h"
@@ -35,6 +36,17 @@ void require_no_clock(const Loaded& loaded) {
                          distributer->name + "\"} and feed it");
 }
 
+// `without_channel`: what is fed to communicators alone.
+void require_recordable(const RecordingOptions& recording, const DistributerClass& without_channel) {
+  if (recording.checkpoints > Duration{})
+    throw std::invalid_argument(
+        ".recording.checkpoints belongs to a Runner; a session is saved by checkpoint() where it stands");
+  if (!recording.file.empty() && !without_channel.channels.empty())
+    throw std::invalid_argument(".recording: '" + without_channel.channels.front().name +
+                                "' is fed and has no channel, from which a replay would take its values; give it one "
+                                "in the graph, as in {channel: dune.motion}");
+}
+
 }  // namespace
 
 Session::Run::Run(const distributers::Registries& known, std::shared_ptr<const Source> source,
@@ -42,12 +54,14 @@ Session::Run::Run(const distributers::Registries& known, std::shared_ptr<const S
     : note_(options.note ? options.note : no_notes) {
   if (source == nullptr) throw NoSource("a session is of a graph's text; the source is null");
   const DefaultFloatingPoint arithmetic;  // of vehicles and parameters, and of threads that are started here
-  if (options.real_clock && options.workers > 1)
-    throw NotExecutable("workers belong to the virtual clock; the real one goes by 'platform'");
+  require_workers(options.workers);
   const Overrides overrides{options.profile, options.set, options.no_plugins};
   Loaded loaded =
       feed_in_place_of_links(load_graph(source, known, overrides, options.seed, note_, options.fed), options.fed);
   if (!options.real_clock) require_no_clock(loaded);
+  if (options.real_clock && options.workers > 1)
+    throw NotExecutable("workers belong to the virtual clock; the real one goes by 'platform'");
+  require_recordable(options.recording, without_channel_);
   observed = std::make_unique<Observed>(*loaded.graph, outputs_of(*loaded.graph));
   runner_.emplace(std::move(loaded), RunOptions{.end = Duration::max(),
                                                 .overrides = overrides,
@@ -151,6 +165,9 @@ void Session::Run::restore(const Checkpoint& checkpoint) {
   const DefaultFloatingPoint arithmetic;
   if (finished_) throw RunOver("the run was finished");
   if (runner_->has_real_clock()) throw CheckpointRefused("a run on the real clock does not go on from a checkpoint");
+  if (runner_->recording() != nullptr)
+    throw CheckpointRefused(
+        "a run that is recorded does not go on from a checkpoint; restore it in a session without .recording");
   try {
     graph_run().require_same_origin(checkpoint);
     over_ = "what was to be restored is damaged";
