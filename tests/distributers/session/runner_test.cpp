@@ -128,7 +128,7 @@ tasks: {forward: {type: LauvForward, wcet: 1us}}
 connections: [motion -> forward.motion, hand -> forward.actuation]
 )"});
     CHECK_THROWS_WITH_AS(Session(all_built_in(), text, {.fed = {"*"}, .recording = {.file = file.path}}),
-                         ".recording: 'motion' is fed and has no channel, from which a replay would take its values; "
+                         ".recording: 'hand' is fed and has no channel, from which a replay would take its values; "
                          "give it one in the graph, as in {channel: dune.motion}",
                          std::invalid_argument);
   }
