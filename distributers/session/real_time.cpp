@@ -91,15 +91,14 @@ CheckFindings find_against(const Graph& graph) {
   return found;
 }
 
-void require_executable(const std::string& name, const Graph& graph, bool force, const NoteSink& note,
-                        const RunWords& words) {
-  require_executed(name, graph, words);
+void require_executable(const std::string& name, const Graph& graph, const RunOptions& options) {
+  require_executed(name, graph, options.words);
   const CheckFindings found = find_against(graph);
-  if (!found.against.empty() && !force)
-    throw NotSchedulable("'" + name + "' " + found.against + "; 'jarol check' says more, " + words.force +
+  if (!found.against.empty() && !options.force)
+    throw NotSchedulable("'" + name + "' " + found.against + "; 'jarol check' says more, " + options.words.force +
                          " runs it all the same");
-  if (!found.against.empty()) note("run by force: '" + name + "' " + found.against);
-  if (!found.unknown.empty()) note("whether this graph can be scheduled is not known: " + found.unknown);
+  if (!found.against.empty() && options.note_force) options.note("run by force: '" + name + "' " + found.against);
+  if (!found.unknown.empty()) options.note("whether this graph can be scheduled is not known: " + found.unknown);
 }
 
 void take_priority(std::optional<int> priority) {

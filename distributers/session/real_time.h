@@ -5,11 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "distributers/session/note_sink.h"
-#include "distributers/session/run_words.h"
+#include "distributers/session/run_options.h"
 #include "graph/analysis/threads.h"
 #include "graph/model/graph.h"
-#include "runtime/machine/real_clock.h"
 
 namespace jarol {
 
@@ -30,9 +28,8 @@ struct CheckFindings {
 CheckFindings find_against(const Graph& graph);
 
 /// Throws NotExecutable as above, and unless forced NotSchedulable for a graph that check finds not schedulable, or to
-/// break a chain's limit; what check can't say, and what is run by force, is noted.
-void require_executable(const std::string& name, const Graph& graph, bool force, const NoteSink& note,
-                        const RunWords& words = {});
+/// break a chain's limit; what check can't say is noted, and what is run by force where that is asked for.
+void require_executable(const std::string& name, const Graph& graph, const RunOptions& options);
 
 /// Gives the calling thread that priority under SCHED_FIFO, and those that it makes from now on, as the threads of
 /// links. Where that is refused, it is so for the thread that keeps the time, which notes it.

@@ -8,27 +8,14 @@
 
 #include "distributers/session/note_sink.h"
 #include "distributers/session/pace.h"
+#include "distributers/session/recording_options.h"
 #include "distributers/session/run_words.h"
 #include "distributers/session/saved_run.h"
 #include "graph/language/load.h"
-#include "graph/language/source_set.h"
 #include "runtime/dispatch/task_guard.h"
 #include "runtime/machine/real_clock.h"
-#include "runtime/mcap/compression.h"
 
 namespace jarol {
-
-/// The recording of a run, an MCAP file.
-struct RecordingOptions {
-  std::string file{};        // empty: there is none
-  std::string what = "all";  // which outputs: all, names with * for any part, or inputs: what a replay needs
-  std::uint64_t split = 0;   // a new file begins at so many bytes; 0: never
-  Duration checkpoints{};    // the run is saved in it at each multiple of this; zero: never
-  std::string version{};     // of the program, a line each
-  mcap::Compression compression = mcap::Compression::lz4;
-  const SourceSet* sources = nullptr;  // made before the graph was loaded: the files that a replay reads; null: those
-                                       // of the graph and of its links alone
-};
 
 /// All that is named by a pointer outlives the run.
 struct RunOptions {
@@ -36,11 +23,13 @@ struct RunOptions {
                    // asked to end
   Overrides overrides{};  // with which the graph was loaded, and the seed
   std::uint64_t seed = 0;
-  bool real_clock = false;  // against the machine's clock; else as fast as possible
+  std::vector<std::string> fed{};  // what a program feeds in place of links, by name
+  bool real_clock = false;         // against the machine's clock; else as fast as possible
   bool threads = false;     // on the real clock: the Jarol core on ordinary threads; nothing is claimed of its digest
   std::size_t workers = 1;  // threads that run tasks on the virtual clock; the outcome is the same for any number
   RealTimeOptions real_time{};  // on the real clock: priority and CPUs
   bool force = false;           // on the real clock: also what check has a negative verdict on
+  bool note_force = false;      // `note` gets that verdict
   std::string no_guardian{};    // on the real clock: why no process hands over `safe` when this one is gone; empty: one
                                 // does
   std::string execution{};      // on the virtual clock, what activations take: wcet, random, a file; empty: no time

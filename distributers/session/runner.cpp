@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 #include <utility>
 
 #include "distributers/session/real_time.h"
@@ -20,12 +21,16 @@ void require_clock(const RunOptions& options, const Loaded& loaded) {
                          options.words.real_clock);
 }
 
-void require_workers(const RunOptions& options) {
-  if (options.workers < 1 || options.workers > max_workers)
-    throw NotExecutable("a run has 1 to " + std::to_string(max_workers) + " workers, not " +
-                        std::to_string(options.workers));
-  if (options.real_clock && options.workers > 1)
+// What the virtual clock alone has.
+void require_options_of_clock(const RunOptions& options) {
+  require_workers(options.workers);
+  if (!options.real_clock) return;
+  if (options.workers > 1)
     throw NotExecutable(options.words.workers + " belongs to the virtual clock; the real one goes by 'platform'");
+  if (!options.execution.empty())
+    throw std::invalid_argument(options.words.execution +
+                                " belongs to the virtual clock; on the real one activations take the time that they "
+                                "take");
 }
 
 void require_end(const RunOptions& options, Duration begun) {
@@ -43,7 +48,10 @@ void add_text(std::string& all, const std::string& text) { all += (all.empty() ?
 }  // namespace
 
 Runner::Runner(Loaded loaded, RunOptions options, const OnGuard& on_guard)
-    : options_(std::move(options)), name_(loaded.files.front()->name), begun_(begin_of(options_)) {
+    : options_(std::move(options)),
+      name_(loaded.files.front()->name),
+      begun_(begin_of(options_)),
+      until_(options_.end) {
   require_runnable(options_, loaded);
   if (!options_.threads) {
     execution_.emplace(options_.execution, *loaded.graph, options_.seed, options_.words.execution);
@@ -63,7 +71,7 @@ Runner::~Runner() = default;
 void Runner::require_runnable(const RunOptions& options, const Loaded& loaded) {
   require_end(options, begin_of(options));
   require_clock(options, loaded);
-  require_workers(options);
+  require_options_of_clock(options);
 }
 
 void Runner::make_clock(const Loaded& loaded) {
@@ -71,7 +79,7 @@ void Runner::make_clock(const Loaded& loaded) {
   RealTimeOptions real_time = options_.real_time;
   longest_rest_ = jarol::longest_rest(graph);
   if (!options_.threads) {
-    require_executable(name_, graph, options_.force, options_.note, options_.words);
+    require_executable(name_, graph, options_);
     task_threads_ = threads_for(name_, graph, real_time, options_.words);
     clock_.emplace(graph.tasks.size(), real_time);
   }
@@ -92,7 +100,7 @@ void Runner::make_exotasks(Loaded loaded) {
   std::vector<RecordSink*> sinks = options_.sinks;
   noted_->add_to(sinks);
   if (recording_) sinks.push_back(recording_->publications());
-  RunOrigin origin = origin_of(loaded, options_.overrides, options_.seed);
+  RunOrigin origin = origin_of(loaded, options_.overrides, options_.seed, options_.fed);
   auto made = std::make_unique<GraphRun>(
       std::move(loaded),
       GraphRunOptions{.sinks = sinks,
@@ -142,18 +150,34 @@ RunOutcome Runner::run(const Attendant& attendant) {
 void Runner::begin() {
   const std::optional<int> priority = clock_ ? clock_->options().priority : options_.real_time.priority;
   if (options_.real_clock) take_priority(priority);
-  joined_->connect(options_.note);
-  if (recording_) recording_->open();
-  if (recording_ && options_.resumed != nullptr) save_in_recording(*options_.resumed);
+  connect();
   if (options_.real_clock) take_priority_above(priority);
 }
 
-void Runner::start_clock() {
-  std::vector<std::string> refusals = clock_->prepare_thread();
-  for (const std::string& refusal : exotasks_->executor().refusals())
-    if (std::find(refusals.begin(), refusals.end(), refusal) == refusals.end()) refusals.push_back(refusal);
-  for (const std::string& refusal : refusals) options_.note(refusal);
-  clock_->start();
+void Runner::connect() {
+  joined_->connect(options_.note);
+  if (recording_) recording_->open();
+  if (recording_ && options_.resumed != nullptr) save_in_recording(*options_.resumed);
+}
+
+void Runner::start() {
+  if (clock_) {
+    std::vector<std::string> refusals = clock_->prepare_thread();
+    for (const std::string& refusal : exotasks_->executor().refusals())
+      if (std::find(refusals.begin(), refusals.end(), refusal) == refusals.end()) refusals.push_back(refusal);
+    for (const std::string& refusal : refusals) options_.note(refusal);
+    clock_->start();
+  }
+  if (guard_) guard_->arm();
+}
+
+void Runner::stop(Duration until) {
+  until_ = until;
+  exotasks_->executor().close();
+  exotasks_->executor().finish();
+  joined_->disconnect();
+  if (guard_) guard_->close();
+  end_.emplace().ending = Ending::over();
 }
 
 const RunEnd& Runner::attend(const Attendant& attendant) {
@@ -162,8 +186,7 @@ const RunEnd& Runner::attend(const Attendant& attendant) {
   end_ = jarol::attend(
       attended,
       [&] {
-        if (clock_) start_clock();
-        if (guard_) guard_->arm();
+        this->start();
         start = std::chrono::steady_clock::now();
       },
       [&] {
@@ -207,7 +230,7 @@ RunOutcome Runner::finish() {
           .seconds = seconds_,
           .begun = begun_,
           .simulated = joined_->report().simulated,
-          .verdict = joined_->judge(options_.end, *end_),
+          .verdict = joined_->judge(until_, *end_),
           .true_states = end_->hangs ? std::vector<TrueState>{} : find_true_states(graph(), joined_->channels()),
           .unwritten = std::move(unwritten),
           .unsaved = saved_ != nullptr ? saved_->lost() : ""};

@@ -55,10 +55,23 @@ class Runner {
   /// Where the run's end says that something still runs that has to be left behind, the process can only end at once.
   RunOutcome finish();
 
+  // in place of `begin` and `attend`, of exotasks that a program steps by the executor of `exotasks`
+
+  /// As `begin`, but for priorities.
+  void connect();
+  /// The clock of the calling thread starts, if it is the real one, and the guardian stands by.
+  void start();
+  /// It was to run until then: what has a `safe` gets that, and the links are let go. Once.
+  void stop(Duration until);
+  GraphRun& exotasks() { return *exotasks_; }
+  const GraphRun& exotasks() const { return *exotasks_; }
+  Noted& noted() { return *noted_; }
+
   const Graph& graph() const { return joined_->graph(); }
   JoinedGraph& joined() { return *joined_; }
   /// When the instants that it covers end.
   Duration end() const { return options_.end; }
+  bool has_real_clock() const { return clock_.has_value(); }
   /// Null: none is made.
   const RecordingWriter* recording() const { return recording_.get(); }
   /// The vehicle may be brought to rest at its end.
@@ -70,7 +83,6 @@ class Runner {
   void make_exotasks(Loaded loaded);
   void add_stops();
   void save_in_recording(const Checkpoint& checkpoint);
-  void start_clock();
 
   const RunOptions options_;
   const std::string name_;  // what the user called the graph
@@ -88,6 +100,7 @@ class Runner {
   ThreadsRun* threads_ = nullptr;          // likewise
   std::unique_ptr<ExecutorRun> attended_;  // of exotasks
   SavedRun* saved_ = nullptr;              // which is it on the virtual clock
+  Duration until_;                         // to which it was to run
   std::optional<RunEnd> end_;
   double seconds_ = 0;
 };

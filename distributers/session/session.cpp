@@ -33,7 +33,7 @@ Duration Session::now() const { return run().graph_run().executor().now(); }
 Duration Session::end_of_mission() const { return jarol::end_of_mission(run().graph_run().channels()); }
 const Graph& Session::graph() const { return run().graph_run().graph(); }
 const Report& Session::report() const { return run().graph_run().executor().report(); }
-void Session::watch(const std::string& pattern) { run().observed->watch(pattern); }
+void Session::watch(const std::string& pattern) { run().watch(pattern); }
 RunVerdict Session::finish() { return run().finish(); }
 
 void Session::feed_value(std::string_view name, const Type& type, const void* value) { run().feed(name, type, value); }

@@ -10,6 +10,7 @@
 #include "distributers/session/errors.h"
 #include "distributers/session/load.h"
 #include "distributers/session/program_build.h"
+#include "distributers/session/recording_options.h"
 #include "distributers/session/verdict.h"
 #include "graph/values/type_of.h"
 #include "graph/values/value.h"
@@ -28,6 +29,8 @@ struct SessionOptions {
   bool real_clock = false;         // against the machine's clock; else as fast as possible
   RealTimeOptions real_time{};     // on the real clock: priority and CPUs of the threads that run the graph
   bool force = false;              // on the real clock: also what check has a negative verdict on
+  std::string execution{};         // on the virtual clock, what activations take: wcet, random, a file; empty: no time
+  RecordingOptions recording{};    // closed by finish, then jarol replay repeats the run; without it, it breaks off
   std::string no_plugins{};        // why plugins that the graph names are an error; empty: they are loaded
   NoteSink note = no_notes;        // gets what is worth knowing and no error; null: nobody does
 };
@@ -47,8 +50,9 @@ class Session {
  public:
   /// A graph's file with what it may name, which outlives the session. Throws SpecError with all that is wrong with the
   /// file, the options and the links; UnknownName where nothing fits a name in `fed`; NeedsRealClock;
-  /// NotExecutable, for a number of workers that can't be, too; WrongBuild where the program was compiled with options
-  /// that give its values another layout or another arithmetic.
+  /// NotExecutable, for a number of workers that can't be, too; std::invalid_argument where the execution times or the
+  /// recording can't have their effect, std::runtime_error where a file of it can't be made; WrongBuild where the
+  /// program was compiled with options that give its values another layout or another arithmetic.
   Session(const distributers::Registries& known, const std::string& path, SessionOptions options = {},
           const BuildOptions& program = options_of_this_file());
   /// The same of a text; paths in it are relative to the folder of the source's name. Throws NoSource for a null one,
@@ -66,7 +70,7 @@ class Session {
   ///
   /// On the real clock instant 0 is at the first call. The calling thread keeps the time, and gets its priority and
   /// CPUs; values that nobody could take in time are lost, which the verdict says. What has a `safe`
-  /// gets that at the end, also if the process dies; `at_end` of a graph is for jarol run.
+  /// gets that at the end, also if the process dies; `at_end` of a graph is for a Runner.
   void run_until(Duration end);
   /// Throws WrongInstant for what is longer than ten years from the start, too.
   void run_for(Duration length);
@@ -102,7 +106,8 @@ class Session {
     return *static_cast<const T*>(last_value(name, type_of<T>()));
   }
 
-  /// From now on each publication of the outputs with that name, * for any part, is kept. Throws UnknownName.
+  /// From now on each publication of the outputs with that name, * for any part, is kept. Throws UnknownName; RunOver
+  /// after finish.
   void watch(const std::string& pattern);
 
   /// All that was kept, in order. Throws UnknownName, WrongType, NotWatched.

@@ -1,9 +1,9 @@
 #include "distributers/session/session_run.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
-#include "distributers/session/real_time.h"
 #include "graph/floating_point.h"
 #include "graph/language/problems.h"
 
@@ -36,6 +36,17 @@ void require_no_clock(const Loaded& loaded) {
                          distributer->name + "\"} and feed it");
 }
 
+// `without_channel`: what is fed to communicators alone.
+void require_recordable(const RecordingOptions& recording, const DistributerClass& without_channel) {
+  if (recording.checkpoints > Duration{})
+    throw std::invalid_argument(
+        ".recording.checkpoints belongs to a Runner; a session is saved by checkpoint() where it stands");
+  if (!recording.file.empty() && !without_channel.channels.empty())
+    throw std::invalid_argument(".recording: '" + without_channel.channels.front().name +
+                                "' is fed and has no channel, from which a replay would take its values; give it one "
+                                "in the graph, as in {channel: dune.motion}");
+}
+
 }  // namespace
 
 Session::Run::Run(const distributers::Registries& known, std::shared_ptr<const Source> source,
@@ -43,54 +54,43 @@ Session::Run::Run(const distributers::Registries& known, std::shared_ptr<const S
     : note_(options.note ? options.note : no_notes) {
   if (source == nullptr) throw NoSource("a session is of a graph's text; the source is null");
   const DefaultFloatingPoint arithmetic;  // of vehicles and parameters, and of threads that are started here
-  if (options.workers < 1 || options.workers > max_workers)
-    throw NotExecutable("a run has 1 to " + std::to_string(max_workers) + " workers, not " +
-                        std::to_string(options.workers));
-  Loaded loaded = feed_in_place_of_links(
-      load_graph(source, known, {options.profile, options.set, options.no_plugins}, options.seed, note_, options.fed),
-      options.fed);
-  if (options.real_clock)
-    make_clock(source->name, loaded, options);
-  else
-    require_no_clock(loaded);
-  RunOrigin origin = origin_of(loaded, {options.profile, options.set, {}}, options.seed, options.fed);
+  require_workers(options.workers);
+  const Overrides overrides{options.profile, options.set, options.no_plugins};
+  Loaded loaded =
+      feed_in_place_of_links(load_graph(source, known, overrides, options.seed, note_, options.fed), options.fed);
+  if (!options.real_clock) require_no_clock(loaded);
+  if (options.real_clock && options.workers > 1)
+    throw NotExecutable("workers belong to the virtual clock; the real one goes by 'platform'");
+  require_recordable(options.recording, without_channel_);
   observed = std::make_unique<Observed>(*loaded.graph, outputs_of(*loaded.graph));
-  graph_run_.emplace(std::move(loaded), GraphRunOptions{.sinks = {observed.get()},
-                                                        .workers = options.workers,
-                                                        .clock = clock_ ? &*clock_ : nullptr,
-                                                        .threads = threads_});
-  graph_run_->set_origin(std::move(origin));
-  graph_run_->connect(note_);
+  runner_.emplace(std::move(loaded), RunOptions{.end = Duration::max(),
+                                                .overrides = overrides,
+                                                .seed = options.seed,
+                                                .fed = options.fed,
+                                                .real_clock = options.real_clock,
+                                                .workers = options.workers,
+                                                .real_time = options.real_time,
+                                                .force = options.force,
+                                                .execution = options.execution,
+                                                .recording = options.recording,
+                                                .sinks = {observed.get()},
+                                                .note = note_});
+  runner_->connect();
 }
 
 Session::Run::~Run() {
-  if (graph_run_ && !finished_) end();
-}
-
-void Session::Run::make_clock(const std::string& name, const Loaded& loaded, const SessionOptions& options) {
-  if (options.workers > 1) throw NotExecutable("workers belong to the virtual clock; the real one goes by 'platform'");
-  const Graph& graph = *loaded.graph;
-  require_executable(name, graph, options.force, note_);
-  RealTimeOptions real_time = options.real_time;
-  threads_ = threads_for(name, graph, real_time);
-  clock_.emplace(graph.tasks.size(), real_time);
-  guard_.emplace(loaded, "", real_time.priority, note_);
-}
-
-void Session::Run::start_clock() {
-  if (!clock_ || std::exchange(started_, true)) return;
-  for (const std::string& refusal : clock_->prepare_thread()) note_(refusal);
-  clock_->start();
-  guard_->arm();
+  if (runner_ && !finished_) end();
 }
 
 // What has a safe gets it, then the links are let go.
 void Session::Run::end() {
   const DefaultFloatingPoint arithmetic;
-  graph_run_->executor().close();
-  graph_run_->executor().finish();
-  graph_run_->disconnect();
-  if (guard_) guard_->close();
+  runner_->stop(asked_);
+}
+
+void Session::Run::watch(const std::string& pattern) {
+  if (finished_) throw RunOver("the run is over: " + over_);
+  observed->watch(pattern);
 }
 
 Loaded Session::Run::feed_in_place_of_links(Loaded loaded, const std::vector<std::string>& patterns) {
@@ -125,24 +125,24 @@ Loaded Session::Run::feed_in_place_of_links(Loaded loaded, const std::vector<std
 
 void Session::Run::run_until(Duration end) {
   const DefaultFloatingPoint arithmetic;
-  Executor& executor = graph_run_->executor();
+  Executor& executor = graph_run().executor();
   if (!over_.empty()) throw RunOver("the run is over at " + seconds_text(executor.now()) + " s: " + over_);
   if (end > longest_duration) throw WrongInstant("a run has ten years at most, not " + seconds_text(end) + " s");
   if (end < executor.now())
     throw WrongInstant("a run does not go back: it has reached " + seconds_text(executor.now()) +
                        " s, and was to run until " + seconds_text(end) + " s");
   asked_ = end;
-  start_clock();
+  if (runner_->has_real_clock() && !std::exchange(started_, true)) runner_->start();
   try {
     executor.run_until(end);
   } catch (const std::exception& error) { over_ = error.what(); } catch (...) {
     over_ = "something was thrown that is no exception";
   }
-  graph_run_->sinks().catch_up();
-  graph_run_->sinks().rethrow_failure();
+  graph_run().sinks().catch_up();
+  graph_run().sinks().rethrow_failure();
   if (!over_.empty()) throw SystemLost(over_);
   // on the real clock it goes on
-  if (const std::string& lost = graph_run_->sinks().lost(); !clock_ && !lost.empty()) {
+  if (const std::string& lost = graph_run().sinks().lost(); !runner_->has_real_clock() && !lost.empty()) {
     over_ = lost;
     throw ValueTooLarge(over_);
   }
@@ -151,10 +151,11 @@ void Session::Run::run_until(Duration end) {
 
 Checkpoint Session::Run::checkpoint() {
   const DefaultFloatingPoint arithmetic;
-  if (finished_ || (!over_.empty() && !graph_run_->executor().report().stopped))
+  if (finished_ || (!over_.empty() && !graph_run().executor().report().stopped))
     throw RunOver("there is nothing to save, as the run is over: " + over_);
   try {
-    Checkpoint made = graph_run_->checkpoint();
+    Checkpoint made = graph_run().checkpoint();
+    made.save("notes", runner_->noted());
     made.save("values", *observed);
     return made;
   } catch (const CheckpointError& error) { throw CheckpointRefused(error.what()); }
@@ -163,21 +164,25 @@ Checkpoint Session::Run::checkpoint() {
 void Session::Run::restore(const Checkpoint& checkpoint) {
   const DefaultFloatingPoint arithmetic;
   if (finished_) throw RunOver("the run was finished");
-  if (clock_) throw CheckpointRefused("a run on the real clock does not go on from a checkpoint");
+  if (runner_->has_real_clock()) throw CheckpointRefused("a run on the real clock does not go on from a checkpoint");
+  if (runner_->recording() != nullptr)
+    throw CheckpointRefused(
+        "a run that is recorded does not go on from a checkpoint; restore it in a session without .recording");
   try {
-    graph_run_->require_same_origin(checkpoint);
+    graph_run().require_same_origin(checkpoint);
     over_ = "what was to be restored is damaged";
-    graph_run_->restore(checkpoint);
+    graph_run().restore(checkpoint);
+    checkpoint.restore("notes", runner_->noted());
     if (!checkpoint.restore("values", *observed)) observed->forget();
   } catch (const CheckpointError& error) { throw CheckpointRefused(std::string("the checkpoint ") + error.what()); }
   asked_ = checkpoint.instant();
-  const Report& report = graph_run_->executor().report();
+  const Report& report = graph_run().executor().report();
   over_ = !report.stopped ? "" : report.faults.empty() ? "a fault" : to_text(report.faults.back());
 }
 
 void Session::Run::feed(std::string_view name, const Type& type, const void* value) {
   if (finished_) throw RunOver("the run is over: " + over_);
-  const Graph& graph = graph_run_->graph();
+  const Graph& graph = graph_run().graph();
   std::vector<std::string> names;
   for (const Communicator& c : graph.communicators) {
     if (c.direction != Direction::in) continue;
@@ -203,15 +208,10 @@ RunVerdict Session::Run::finish() {
   finished_ = true;
   const std::string stopped = std::exchange(over_, "it was finished");
   this->end();
-  std::string unseen;
-  try {
-    graph_run_->close_sinks();
-  } catch (const std::exception& error) { unseen = error.what(); }
-  RunEnd end;
-  end.ending = Ending::over();
-  RunVerdict verdict = graph_run_->judge(asked_, end);
+  const RunOutcome outcome = runner_->finish();
+  RunVerdict verdict = outcome.verdict;
   verdict.stopped = stopped;
-  verdict.unseen = unseen;
+  verdict.unseen = outcome.unwritten;
   if (stopped.empty() && !verdict.unheard.empty())
     verdict.stopped = "nothing came from the vehicle of '" + verdict.unheard.front() + "'";
   return verdict;

@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "distributers/session/fed_system.h"
-#include "distributers/session/graph_run.h"
-#include "distributers/session/guard.h"
 #include "distributers/session/observed.h"
+#include "distributers/session/runner.h"
 #include "distributers/session/session.h"
 
 namespace jarol {
@@ -27,26 +26,22 @@ class Session::Run {
   Checkpoint checkpoint();
   void restore(const Checkpoint& checkpoint);
 
-  GraphRun& graph_run() { return *graph_run_; }
-  const GraphRun& graph_run() const { return *graph_run_; }
+  void watch(const std::string& pattern);
+
+  GraphRun& graph_run() { return runner_->exotasks(); }
+  const GraphRun& graph_run() const { return runner_->exotasks(); }
 
   std::unique_ptr<Observed> observed;
 
  private:
-  void make_clock(const std::string& name, const Loaded& loaded, const SessionOptions& options);
-  void start_clock();
   void end();
   Loaded feed_in_place_of_links(Loaded loaded, const std::vector<std::string>& patterns);
 
   DistributerClass without_channel_;  // of communicators that the program feeds
   std::vector<FedSystem*> fed_;       // per distributer, null: it has its link
-  // on the real clock
-  std::optional<RealClock> clock_;
-  std::vector<analysis::TaskThread> threads_;
-  std::optional<Guard> guard_;
-  bool started_ = false;
+  bool started_ = false;              // the real clock
 
-  std::optional<GraphRun> graph_run_;
+  std::optional<Runner> runner_;
   Duration asked_{};  // to which it was to run last
   NoteSink note_;
   std::string over_;  // why no more can be run; empty: it can

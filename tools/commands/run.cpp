@@ -54,6 +54,7 @@ RunOptions options_of(const RunArguments& arguments, const Loaded& loaded) {
           .workers = arguments.workers,
           .real_time = options_of(arguments.real_time),
           .force = arguments.real_time.force,
+          .note_force = true,
           .no_guardian = arguments.real_time.no_guardian ? "--no-guardian" : "",
           .execution = arguments.execution,
           .recording = options_of(arguments.recording),

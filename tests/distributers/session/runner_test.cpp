@@ -5,6 +5,8 @@
 
 #include "distributers/session/replayer.h"
 #include "distributers/session/runner.h"
+#include "distributers/session/session.h"
+#include "tasks/values/lauv.h"
 #include "tests/distributers/all_parts.h"
 
 namespace {
@@ -13,14 +15,15 @@ using namespace std::chrono_literals;
 
 const distributers::Registries& all_built_in() { return tests::all_parts_with<>(); }
 
-Loaded load_counting() {
-  return load_graph(std::make_shared<const Source>(Source{"counting.yaml", R"(
+std::shared_ptr<const Source> counting_text() {
+  return std::make_shared<const Source>(Source{"counting.yaml", R"(
 graph: counting
 timing: {period: 10ms}
 tasks: {count: {type: Counter, wcet: 1ms}}
-)"}),
-                    all_built_in(), {}, 0);
+)"});
 }
+
+Loaded load_counting() { return load_graph(counting_text(), all_built_in(), {}, 0); }
 
 struct RecordingFile {
   RecordingFile() { std::filesystem::remove(path); }
@@ -62,6 +65,72 @@ TEST_SUITE("distributers/session/runner") {
     Replayer replayer(log, all_built_in());
     CHECK(replayer.run().comparison.evidence == Evidence::same);
     CHECK(replayer.begun() == 400ms);
+  }
+
+  TEST_CASE("a session that is stepped is recorded, too, and its replay is the same to the last value") {
+    const RecordingFile file;
+    Session session(all_built_in(), counting_text(), {.execution = "wcet", .recording = {.file = file.path}});
+    session.run_until(300ms);
+    session.run_until(1s);
+    const std::uint64_t digest = session.report().digest;
+    CHECK_FALSE(session.finish().is_negative());
+    RecordedRun log(file.path);
+    Replayer replayer(log, all_built_in());
+    const ReplayOutcome again = replayer.run();
+    CHECK(again.comparison.evidence == Evidence::same);
+    CHECK(again.run.simulated == 1s);
+    CHECK(again.run.report.digest == digest);
+  }
+
+  TEST_CASE("what a session is fed in place of links is recorded, and fed again by its replay") {
+    const RecordingFile file;
+    const auto text = std::make_shared<const Source>(Source{"t.yaml", R"(
+graph: t
+timing: {period: 10ms}
+distributers: {dune: {type: LauvVehicle, link: {type: udp, listen: 0}}}
+communicators: {motion: {channel: dune.motion}, hand: {type: Actuation, direction: in}}
+tasks: {forward: {type: LauvForward, wcet: 1us}}
+connections: [motion -> forward.motion, hand -> forward.actuation]
+)"});
+    Session session(all_built_in(), text, {.fed = {"dune"}, .recording = {.file = file.path}});
+    session.run_until(300ms);
+    session.feed("motion", tasks::Motion{.z = 3});
+    session.run_until(1s);
+    const std::uint64_t digest = session.report().digest;
+    session.finish();
+    RecordedRun log(file.path);
+    Replayer replayer(log, all_built_in());
+    const ReplayOutcome again = replayer.run();
+    CHECK(again.comparison.evidence == Evidence::same);
+    CHECK(again.run.report.digest == digest);
+  }
+
+  TEST_CASE(
+      "what a session that is recorded can't do is refused: to go back, to save on its way, to be fed what no replay "
+      "could") {
+    const RecordingFile file;
+    Session session(all_built_in(), counting_text(), {.recording = {.file = file.path}});
+    const Checkpoint begin = session.checkpoint();
+    session.run_until(100ms);
+    CHECK_THROWS_WITH_AS(
+        session.restore(begin),
+        "a run that is recorded does not go on from a checkpoint; restore it in a session without .recording",
+        CheckpointRefused);
+    CHECK_THROWS_WITH_AS(
+        Session(all_built_in(), counting_text(), {.recording = {.file = file.path, .checkpoints = 1s}}),
+        ".recording.checkpoints belongs to a Runner; a session is saved by checkpoint() where it stands",
+        std::invalid_argument);
+    const auto text = std::make_shared<const Source>(Source{"t.yaml", R"(
+graph: t
+timing: {period: 10ms}
+communicators: {motion: {type: Motion, direction: in}, hand: {type: Actuation, direction: in}}
+tasks: {forward: {type: LauvForward, wcet: 1us}}
+connections: [motion -> forward.motion, hand -> forward.actuation]
+)"});
+    CHECK_THROWS_WITH_AS(Session(all_built_in(), text, {.fed = {"*"}, .recording = {.file = file.path}}),
+                         ".recording: 'hand' is fed and has no channel, from which a replay would take its values; "
+                         "give it one in the graph, as in {channel: dune.motion}",
+                         std::invalid_argument);
   }
 
   TEST_CASE("with execution times a late task stops the run, and the outcome says which") {

@@ -126,6 +126,7 @@ TEST_SUITE("distributers/session") {
                          WrongInstant);
     session.finish();
     CHECK_THROWS_WITH_AS(session.feed("a", 2.0), "the run is over: it was finished", RunOver);
+    CHECK_THROWS_WITH_AS(session.watch("*"), "the run is over: it was finished", RunOver);
     const Session other = std::move(session);
     CHECK(other.now() == 1s);
     CHECK_THROWS_WITH_AS(session.now(), "this session was moved from; use the one that it was moved to", RunOver);
@@ -258,8 +259,18 @@ TEST_SUITE("distributers/session") {
         "'t.yaml' is not schedulable: the tasks need more than the whole core; 'jarol check' says more, "
         ".force runs it all the same",
         NotExecutable);
+    notes.clear();
+    session_of(counting, {.set = {"tasks.count.wcet=11ms"},
+                          .real_clock = true,
+                          .force = true,
+                          .note = [&](const std::string& note) { notes.push_back(note); }});
+    CHECK(notes == std::vector<std::string>{});
     CHECK_THROWS_WITH_AS(session_of(counting, {.workers = 2, .real_clock = true}),
                          "workers belong to the virtual clock; the real one goes by 'platform'", NotExecutable);
+    CHECK_THROWS_WITH_AS(session_of(counting, {.real_clock = true, .execution = "wcet"}),
+                         ".execution belongs to the virtual clock; on the real one activations take the time that they "
+                         "take",
+                         std::invalid_argument);
   }
 
   TEST_CASE("all that is wrong with a graph is one SpecError, as on the command line") {
