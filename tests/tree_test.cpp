@@ -27,6 +27,9 @@ const std::map<std::string, std::vector<std::string>> allowed{
 
 constexpr std::array folders{"graph", "runtime", "tasks", "distributers", "vehicles", "specs", "tests", "tools"};
 
+// How the names of files end that pages are named in.
+const std::set<fs::path> kinds_of_code{".h", ".cpp", ".cmake", ".txt", ".yaml", ".ts", ".mjs", ".html", ".py", ""};
+
 std::vector<std::string> project_includes(const fs::path& file) {
   std::vector<std::string> includes;
   std::ifstream in(file);
@@ -192,6 +195,25 @@ TEST_SUITE("tree") {
     }
     CHECK(wrong == "");
     CHECK(seen > 200);
+  }
+
+  // by its path from the top, in a comment, a message or a script
+  TEST_CASE("a page that code names is there") {
+    const std::regex named(
+        R"((?:^|[^\w/])((?:graph|runtime|tasks|distributers|vehicles|specs|tests|tools)/[\w/]*\.md)\b)");
+    std::string wrong;
+    std::size_t seen = 0;
+    for (const char* top : folders)
+      for (fs::recursive_directory_iterator entry(top), end; entry != end; ++entry) {
+        if (entry->path().filename() == "node_modules") entry.disable_recursion_pending();
+        if (!entry->is_regular_file() || !kinds_of_code.contains(entry->path().extension())) continue;
+        const std::string text = text_of(entry->path());
+        for (std::sregex_iterator found(text.begin(), text.end(), named), none; found != none; ++found, ++seen)
+          if (!fs::exists((*found)[1].str()))
+            wrong += entry->path().string() + " names " + (*found)[1].str() + ", which is not there\n";
+      }
+    CHECK(wrong == "");
+    CHECK(seen > 30);
   }
 
   // doctest adds 1 to the value of which epsilon is a share, so that 0.01 within 5 % would hold of 0, too.

@@ -67,7 +67,7 @@ struct SystemLost : SessionError {
   using SessionError::SessionError;
 };
 
-/// A value that was published is larger than what looks on at a run takes (specs/README.md); the run is over.
+/// A value that was published is larger than what looks on at a run takes (specs/running.md); the run is over.
 struct ValueTooLarge : SessionError {
   using SessionError::SessionError;
 };

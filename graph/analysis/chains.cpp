@@ -9,7 +9,7 @@
 namespace jarol::analysis {
 namespace {
 
-// A point of logical time: the instant, and the step within it (specs/README.md, "An instant").
+// A point of logical time: the instant, and the step within it (specs/running.md, "An instant").
 struct Point {
   std::int64_t instant;
   int step;

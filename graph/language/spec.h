@@ -27,7 +27,7 @@ struct Maybe : std::optional<Located<T>> {
   bool bad = false;
 };
 
-/// What follows a fault: specs/README.md, "Faults".
+/// What follows a fault: specs/running.md, "Faults".
 enum class OnFault { stop, hold, skip, restart };
 /// So many faults in so many releases end the run.
 struct FaultLimit {

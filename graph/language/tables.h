@@ -1,4 +1,4 @@
-// The tables of the graph language, one per kind of mapping; specs/README.md says the same to people.
+// The tables of the graph language, one per kind of mapping; the pages of specs/ say the same to people.
 #pragma once
 
 #include "graph/language/key.h"

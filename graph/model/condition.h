@@ -1,4 +1,4 @@
-// A condition on what a run publishes and where its vehicles truly are: specs/README.md has the language.
+// A condition on what a run publishes and where its vehicles truly are: specs/expectations.md has the language.
 #pragma once
 
 #include <optional>

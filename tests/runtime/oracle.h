@@ -1,4 +1,4 @@
-// The semantics of specs/README.md a second time: slow, event by event, no plan, no code shared with the runtime.
+// The semantics of specs/running.md a second time: slow, event by event, no plan, no code shared with the runtime.
 #pragma once
 
 #include <cstdint>

@@ -30,21 +30,25 @@ std::vector<std::string> code_of(const std::string& text) {
 }
 
 // The rows below each heading whose first cell is code.
+void read_rows(const std::string& page, std::map<std::string, std::vector<Row>>& read) {
+  std::istringstream text(read_source(page)->text);
+  std::string section;
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with("## ") || line.starts_with("### ")) section = line.substr(line.find(' ') + 1);
+    if (!line.starts_with("| `")) continue;
+    Row row;
+    for (std::size_t begin = 1; begin < line.size(); begin = line.find('|', begin) + 1)
+      row.cells.push_back(line.substr(begin, line.find('|', begin) - begin));
+    row.key = code_of(row.cells[0]).front();
+    row.cells.erase(row.cells.begin());
+    read[section].push_back(std::move(row));
+  }
+}
+
 const std::map<std::string, std::vector<Row>>& reference() {
   static const auto sections = [] {
     std::map<std::string, std::vector<Row>> read;
-    std::istringstream text(read_source("specs/README.md")->text);
-    std::string section;
-    for (std::string line; std::getline(text, line);) {
-      if (line.starts_with("## ") || line.starts_with("### ")) section = line.substr(line.find(' ') + 1);
-      if (!line.starts_with("| `")) continue;
-      Row row;
-      for (std::size_t begin = 1; begin < line.size(); begin = line.find('|', begin) + 1)
-        row.cells.push_back(line.substr(begin, line.find('|', begin) - begin));
-      row.key = code_of(row.cells[0]).front();
-      row.cells.erase(row.cells.begin());
-      read[section].push_back(std::move(row));
-    }
+    for (const char* page : {"specs/graphs.md", "specs/links.md", "specs/running.md"}) read_rows(page, read);
     return read;
   }();
   return sections;

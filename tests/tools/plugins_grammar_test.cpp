@@ -158,7 +158,7 @@ TEST_SUITE("tools/plugins_grammar") {
           "  runs of 'tasks': so often in the graph's period, as in 4; the period follows, and the LET is all of it\n");
     CHECK(command::run_jarol("tasks let").output ==
           "grammar let: periods, offsets and logical execution times are stated\n\n"
-          "  the keys of specs/README.md, and no others\n");
+          "  the keys of specs/graphs.md, and no others\n");
     const auto json =
         nlohmann::json::parse(command::run_jarol("tasks rates --json --plugin " + library("rates")).output);
     CHECK(json["grammars"][0]["keys"][0]["name"] == "runs");

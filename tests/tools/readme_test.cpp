@@ -68,6 +68,13 @@ TEST_SUITE("tools/readme") {
     CHECK(is_shown(shown, verdict));
   }
 
+  TEST_CASE("the page of the graphs shows a small one as it is, and what check says of it") {
+    const std::string text = page("specs/README.md"), verdict = output_of("check specs/counting.yaml");
+    CHECK(verdict.size() > 300);
+    CHECK(between(text, "```yaml\n", "```") == page("specs/counting.yaml"));
+    CHECK(between(text, "$ build/release/jarol check specs/counting.yaml\n", "```") == verdict);
+  }
+
   TEST_CASE("what check says of the demo with a longer WCET stands in both places, too") {
     const std::string verdict = output_of("check specs/exolauv.yaml --set tasks.speed.wcet=60ms");
     CHECK(verdict.size() > 300);

@@ -67,7 +67,7 @@ void print_policy(const Policy& policy) {
 
 void print_grammar(const Grammar& grammar) {
   std::cout << "grammar " << grammar.name << ": " << grammar.how << "\n\n";
-  if (grammar.lower == nullptr) std::cout << "  the keys of specs/README.md, and no others\n";
+  if (grammar.lower == nullptr) std::cout << "  the keys of specs/graphs.md, and no others\n";
   for (const GrammarKey& key : grammar.keys)
     std::cout << "  " << key.name << " of '" << key.section << "': " << key.text << "\n";
 }
