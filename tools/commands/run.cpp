@@ -9,6 +9,7 @@
 #include "distributers/session/runner.h"
 #include "graph/text/escape.h"
 #include "runtime/files/atomic_file.h"
+#include "runtime/machine/signal_stack.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/run/at_console.h"
 #include "tools/commands/run/connect.h"
@@ -118,6 +119,7 @@ int run(RunArguments arguments, WatchRun* watch) {
                    options.end);
   const ReportsAside aside(arguments.files);
   RunFiles files(graph, arguments.files, note_of(arguments.overrides, arguments.seed), types_of_truth(loaded));
+  const SignalStack signal_stack;  // of what reports a crash; before the guard, which leaves it writable
   const std::unique_ptr<TaskGuard> task_guard = make_guard(arguments.guard, graph, pointers_to(loaded.channels));
   const std::unique_ptr<Pace> pace = pace_of(arguments);
   const std::unique_ptr<console::View> console =
