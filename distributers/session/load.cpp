@@ -3,6 +3,7 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <iterator>
 #include <span>
@@ -113,6 +114,20 @@ Loaded load(const GraphText& text, const distributers::Registries& known, const 
   return loaded;
 }
 
+// Its instruments with `fitted: false`, by the names of their parameters.
+std::string list_unfitted(const Distributer& distributer) {
+  std::string names;
+  if (distributer.parameters.type() == nullptr) return names;
+  for (const TypeField& parameter : distributer.parameters.type()->fields) {
+    const TypeField* const fitted = find_field(*parameter.type, "fitted");
+    if (fitted == nullptr || fitted->type->kind != Kind::boolean) continue;
+    const auto* const data = static_cast<const std::byte*>(distributer.parameters.data());
+    if (read_integer(*fitted->type, data + parameter.offset + fitted->offset) == 0)
+      names += (names.empty() ? "" : ", ") + parameter.name;
+  }
+  return names;
+}
+
 // The channels of missions alone, which are read for what they expect.
 std::vector<std::unique_ptr<ExternalSystem>> missions_of(const Loaded& loaded, Problems& problems) {
   std::vector<Distributer> distributers = loaded.graph->distributers;
@@ -148,6 +163,9 @@ Loaded load_graph(const std::shared_ptr<const Source>& source, const distributer
   loaded.files = {source};
   loaded.channels = distributers::make_external_systems(*loaded.graph, *loaded.known, seed, problems, &loaded.files);
   add_conditions(loaded, problems, loaded.channels);
+  for (const Distributer& distributer : loaded.graph->distributers)
+    if (const std::string unfitted = list_unfitted(distributer); !unfitted.empty())
+      note("distributer '" + distributer.name + "': not fitted, and so not checked: " + unfitted);
   for (std::size_t i = 0; i < loaded.channels.size(); ++i)
     if (const std::string doubt = loaded.channels[i] ? loaded.channels[i]->doubt() : ""; !doubt.empty())
       note("distributer '" + loaded.graph->distributers[i].name + "' " + doubt);

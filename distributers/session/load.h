@@ -27,9 +27,11 @@ struct Loaded {
 };
 
 /// Throws SpecError with everything that is wrong with the file, its overrides and its links. The seed is that of all
-/// noise. A plugin is noted, "loads plugin 'path'", before it is loaded, and so is what is doubtful about a link. The
-/// links of distributers whose names fit one of `without_link`, with * for any part, are not looked at: a null stands
-/// in the place of their channels. `known` of another load of a graph with the same plugins: they are not loaded again.
+/// noise. A plugin is noted, "loads plugin 'path'", before it is loaded; so is what is doubtful about a link, and which
+/// instruments of a distributer are not fitted: its parameters that are structs in which a boolean `fitted` is false.
+/// The links of distributers whose names fit one of `without_link`, with * for any part, are not looked at: a null
+/// stands in the place of their channels. `known` of another load of a graph with the same plugins: they are not loaded
+/// again.
 Loaded load_graph(const std::shared_ptr<const Source>& source, const distributers::Registries& known,
                   const Overrides& overrides, std::uint64_t seed, const NoteSink& note = no_notes,
                   const std::vector<std::string>& without_link = {});
