@@ -9,8 +9,8 @@
 namespace jarol::tasks {
 namespace {
 
-constexpr double astern = 0.5;    // m/s
-constexpr double some_waves = 3;  // s, over which the surge is averaged: who rests in waves moves to and fro
+constexpr double astern = 0.4;      // m/s
+constexpr double some_waves = 1.5;  // s, over which the surge is averaged: who rests in waves moves to and fro
 
 // By a propeller that does not do what it is sent. Then nothing steers: the push of a fin at the stern moves the hull
 // across the flow, and what the hull does there undoes the fin's moment, more than that above some 0.6 m/s. What is

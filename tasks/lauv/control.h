@@ -22,7 +22,7 @@ namespace jarol::tasks {
 ///   moment  = pitch_kp (theta_d - theta) - pitch_kd theta_dot,              |moment| <= fin_limit
 ///   theta_dot = q cos(phi) - r sin(phi)
 /// The integral is this project's: DUNE has none set for its simulator, and stays 5 cm above a depth of 3 m there.
-/// Driven astern by a propeller that does not obey (u < -0.5 m/s over some seconds) nothing steers: moment = fin_limit,
+/// Driven astern by a propeller that does not obey (u < -0.4 m/s for some seconds) nothing steers: moment = fin_limit,
 /// see vehicles/failures.md.
 struct DepthControl {
   static constexpr std::string_view summary = "holds a commanded depth with the stern planes";

@@ -155,7 +155,7 @@ TEST_SUITE("tools/surfacing") {
         deepest = std::max(deepest, sample.motion.z);
         steepest = std::max(steepest, std::abs(sample.motion.theta));
       }
-      CHECK(deepest < 9);
+      CHECK(deepest < 6.5);
       CHECK(steepest < 50 * degree);
       CHECK(done.samples.back().motion.z < 0.3);
     }
