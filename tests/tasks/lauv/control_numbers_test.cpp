@@ -190,22 +190,22 @@ TEST_SUITE("tasks/lauv_control/numbers") {
       double thrust;
       bool hard_over;
     };
-    for (const auto& [u, drive, thrust, hard_over] : {Case{-0.41, Drive::speed, 0, true},
-                                                      {-0.41, Drive::thrust, 0.1, true},
-                                                      {-0.41, Drive::thrust, -0.1, false},
-                                                      {-0.39, Drive::speed, 0, false}}) {
-      CAPTURE(u);
-      CAPTURE(thrust);
+    for (const Case& c : {Case{-0.41, Drive::speed, 0, true},
+                          {-0.41, Drive::thrust, 0.1, true},
+                          {-0.41, Drive::thrust, -0.1, false},
+                          {-0.39, Drive::speed, 0, false}}) {
+      CAPTURE(c.u);
+      CAPTURE(c.thrust);
       Depth depth;
-      depth.in.motion = {.u = u};
-      depth.state.surge = u;
-      depth.in.setpoint = {.drive = drive, .thrust = thrust};
-      CHECK(depth.run() == (hard_over ? 25 * degree : 0.0));
+      depth.in.motion = {.u = c.u};
+      depth.state.surge = c.u;
+      depth.in.setpoint = {.drive = c.drive, .thrust = c.thrust};
+      CHECK(depth.run() == (c.hard_over ? 25 * degree : 0.0));
       Heading heading;
-      heading.in.motion = {.u = u};
-      heading.state.surge = u;
-      heading.in.setpoint = {.drive = drive, .thrust = thrust};
-      CHECK(heading.run() == (hard_over ? 25 * degree : 0.0));
+      heading.in.motion = {.u = c.u};
+      heading.state.surge = c.u;
+      heading.in.setpoint = {.drive = c.drive, .thrust = c.thrust};
+      CHECK(heading.run() == (c.hard_over ? 25 * degree : 0.0));
     }
   }
 
