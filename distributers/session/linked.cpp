@@ -14,8 +14,8 @@ namespace {
 struct Finishing {
   explicit Finishing(const std::vector<ExternalSystem*>& all) : channels(all) { failures.reserve(all.size()); }
   const std::vector<ExternalSystem*> channels;
-  std::vector<std::string> failures;  // those of the first `finished` are written
-  std::atomic<std::uint32_t> finished{0};
+  std::vector<std::string> failures;    // those of the first that have finished are written
+  std::atomic<std::uint32_t> begun{0};  // finished, and the one at work
 };
 
 // Why it has failed, or nothing.
@@ -48,17 +48,25 @@ void Linked::finish() {
 
 std::optional<std::size_t> Linked::finish_until(Futex::Time time, std::vector<std::string>& unkept) {
   const auto finishing = std::make_shared<Finishing>(channels_);
+  std::atomic<std::uint32_t>& begun = finishing->begun;
   std::thread thread([finishing] {
+    const auto go_on = [&] {
+      finishing->begun.fetch_add(1, std::memory_order_release);
+      Futex::wake_all(finishing->begun);
+    };
+    go_on();
     for (ExternalSystem* channels : finishing->channels) {
       finishing->failures.push_back(finish_one(*channels));
-      finishing->finished.fetch_add(1, std::memory_order_release);
-      Futex::wake_all(finishing->finished);
+      go_on();
     }
   });
-  std::uint32_t finished = 0;
-  while ((finished = finishing->finished.load(std::memory_order_acquire)) < channels_.size())
-    if (!Futex::wait(finishing->finished, finished, time)) break;
-  finished = finishing->finished.load(std::memory_order_acquire);
+  // a thread that gets no processor is none that hangs
+  for (const Futex::Time late = Futex::now() + begin_patience; begun.load(std::memory_order_acquire) == 0;)
+    if (!Futex::wait(begun, 0, late)) break;
+  time = std::max(time, Futex::now() + finish_patience);
+  for (std::uint32_t at = 0; (at = begun.load(std::memory_order_acquire)) <= channels_.size();)
+    if (!Futex::wait(begun, at, time)) break;
+  const std::uint32_t finished = std::max(begun.load(std::memory_order_acquire), 1U) - 1;
   for (std::size_t i = 0; i < finished; ++i)
     if (const std::string& failure = finishing->failures[i]; !failure.empty()) unkept.push_back(failure);
   if (finished < channels_.size()) {
@@ -77,7 +85,7 @@ std::vector<LinkReport> Linked::reports() const {
 }
 
 void finish_links(Linked& linked, const Graph& graph, RunEnd& end) {
-  const auto hangs = linked.finish_until(std::max(end.until, Futex::now() + finish_patience), end.unkept);
+  const auto hangs = linked.finish_until(end.until, end.unkept);
   if (hangs) end.distributer = HangingDistributer{graph.distributers[*hangs].name};
 }
 

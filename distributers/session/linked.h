@@ -26,7 +26,8 @@ class Linked {
 
   /// What can't be kept for the next run is noted, and the rest goes on.
   void finish();
-  /// The same on another thread, which is waited for until then. The one that has not finished by then, by its number:
+  /// The same on another thread, which is waited for until then, and for finish_patience at least once it has begun.
+  /// The one that has not finished by then, by its number:
   /// it runs on, and neither it nor those behind it may be used or destroyed any more. What can't be kept comes to
   /// `unkept`.
   std::optional<std::size_t> finish_until(Futex::Time time, std::vector<std::string>& unkept);

@@ -55,7 +55,7 @@ class Replayer {
   void begin(std::vector<RecordSink*> sinks = {}, bool truth = false);
   /// Covers what the recording covers. Throws what a task's world throws.
   const RunEnd& attend(const Attendant& attendant = {});
-  /// What looks on has got all, and the run is compared and judged. Once; the outcome refers to the replayer. Throws
+  /// Sinks have got all, and the run is compared and judged. Once; the outcome refers to the replayer. Throws
   /// LogError where values of the recording were left over.
   ReplayOutcome finish();
 

@@ -51,7 +51,7 @@ class Runner {
   /// Covers the instants to the end, on a thread of its own, and lets the links go. What ends it early, a lost system
   /// too, is in what it returns.
   const RunEnd& attend(const Attendant& attendant = {});
-  /// What looks on has got all, the recording is closed, and the run is judged. Once; the outcome refers to the runner.
+  /// Sinks have got all, the recording is closed, and the run is judged. Once; the outcome refers to the runner.
   /// Where the run's end says that something still runs that has to be left behind, the process can only end at once.
   RunOutcome finish();
 

@@ -79,7 +79,9 @@ struct RunEnd {
 /// How long a run that ends waits for what is under way.
 inline constexpr std::chrono::milliseconds end_patience{800};
 /// How long links may take to finish, whatever else was waited for before.
-inline constexpr std::chrono::milliseconds finish_patience{2000};
+inline constexpr std::chrono::milliseconds finish_patience{100};
+/// How long, before that, a busy machine may take to begin with it.
+inline constexpr std::chrono::milliseconds begin_patience{2000};
 /// How long an activation that need not be in time may hold up everything else, beyond its deadline.
 inline constexpr std::chrono::milliseconds holdup_patience{1000};
 /// How long an external system may that is not on a link: in lockstep it waits 10 s for the other end itself.
