@@ -11,19 +11,10 @@
 namespace jarol::tasks {
 namespace {
 
-constexpr double min_at_rest = 0.4, max_at_rest = 1.7;  // thrust at rest, in parts of that of hover
-constexpr double min_thrust = 0.1, max_thrust = 2.0;    // in flight
-constexpr double max_sunk = 1;                          // m/s^2
-constexpr double min_upright = 0.5;                     // cosine of the lean that is made up for: 60 degrees
-constexpr double mean_time = 1.0;                       // s, over which thrust that carries it is averaged
-constexpr double carried_lift = 0.25;                   // of g, felt beyond the rotors' thrust: the ground's
-constexpr double still = 0.05;                          // m/s, of climb
-
 // It leans as far as its altitude has room for: the ground carries a part of it by one foot.
 bool stands_on_foot(const AltitudeControl::Param& p, const FlightEstimate& e) {
-  constexpr double level = 0.05, near = 0.01;  // rad, m
   const double lean = std::max(std::abs(e.roll), std::abs(e.pitch));
-  return e.altitude_known && lean > level && e.altitude < p.foot * std::sin(lean) + near;
+  return e.altitude_known && lean > p.ground.level && e.altitude < p.foot * std::sin(lean) + p.ground.near;
 }
 
 // sag of the battery, flow through the rotors, the ground: whatever thrust is lost or gained is felt at once
@@ -34,7 +25,7 @@ void learn_trim(const AltitudeStep& step, double felt, bool comes_down) {
   const bool on_foot = comes_down && stands_on_foot(p, e);
   state.on_foot = on_foot ? state.on_foot + dt : comes_down ? state.on_foot : 0;
   const double learnt = on_foot ? -p.unload * state.on_foot * dt : p.lift_bandwidth * dt * (1 + state.expected - felt);
-  state.trim = std::clamp(state.trim + learnt, min_at_rest, max_at_rest);
+  state.trim = std::clamp(state.trim + learnt, p.limits.min_trim, p.limits.max_trim);
 }
 
 }  // namespace
@@ -65,20 +56,20 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   }
   const double felt = e.lift / gravity;
   if (!quick) learn_trim(step, felt, comes_down);
-  state.aloft = std::min(state.aloft + dt, mean_time);
+  state.aloft = std::min(state.aloft + dt, p.mean_time);
   state.mean_trim += (state.trim - state.mean_trim) * dt / state.aloft;
 
   double& thrust = out.lift.thrust;
   const double error = state.z.place - e.altitude;
-  state.sunk = limited(state.sunk + p.ki * error * dt, max_sunk);
+  state.sunk = limited(state.sunk + p.ki * error * dt, p.limits.sunk);
   const double a = state.z.demand + p.kp * error + p.kd * (state.z.speed - e.climb) + state.sunk;
-  const double upright = std::max(down_in_body(e.roll, e.pitch)[2], min_upright);
-  thrust = std::clamp(state.trim + (1 + a / gravity) / upright - 1 - state.blind_cut, touches ? 0.0 : min_thrust,
-                      max_thrust);
+  const double upright = std::max(down_in_body(e.roll, e.pitch)[2], p.limits.min_upright);
+  thrust = std::clamp(state.trim + (1 + a / gravity) / upright - 1 - state.blind_cut,
+                      touches ? 0.0 : p.limits.min_thrust, p.limits.max_thrust);
   state.expected += (thrust - state.trim - state.expected) * dt / (p.lift_lag + dt);
   // it feels more than the rotors give, or is still: the ground carries
-  const bool carried = thrust < p.light && felt - (state.trim + state.expected) > carried_lift;
-  if (settling && (carried || (e.altitude < on_ground && std::abs(e.climb) < still))) {
+  const bool carried = thrust < p.light && felt - (state.trim + state.expected) > p.ground.carried_lift;
+  if (settling && (carried || (e.altitude < p.ground.altitude && std::abs(e.climb) < p.ground.still))) {
     state.lifted = false;
     state.trim = std::max(std::min(thrust, state.trim), p.idle);
   }

@@ -12,6 +12,7 @@ namespace jarol::tasks {
 
 /// A landing that is over before gusts turn it: nobody feels them, and lasers show a lean towards their walls late.
 struct QuickLanding {
+  double gain = 10;
   double descent = 1.6;
   double acceleration = 5;
   double brake = 2.5;
@@ -24,8 +25,8 @@ struct QuickLanding {
   static constexpr auto fields() {
     using Q = QuickLanding;
     return describe(
-        field<&Q::descent>("m/s", "at most"), field<&Q::acceleration>("m/s^2", "into it, at most"),
-        field<&Q::brake>("m/s^2", "out of it").in(0, 100),
+        field<&Q::gain>("1/s", "acceleration per error of speed"), field<&Q::descent>("m/s", "at most"),
+        field<&Q::acceleration>("m/s^2", "into it, at most"), field<&Q::brake>("m/s^2", "out of it").in(0, 100),
         field<&Q::low>("m", "altitude at which it has slowed to touch_speed"),
         field<&Q::touch_speed>("m/s", "of its last part"),
         field<&Q::drift>("m/s", "to the side, beyond which it descends more slowly, at twice of it by touch_speed")
@@ -35,12 +36,87 @@ struct QuickLanding {
   }
 };
 
+/// It comes down without an IMU, and no laser shows how it leans (sink_blind in altitude_phases.h).
+struct BlindSinking {
+  double gain = 0.15;
+  double ki = 0.1;
+  double speed = 0.25;
+  double margin = 0.03;
+  double max_trim = 0.2;
+  double max_less = 0.2;
+  double max_more = 0.06;
+  double max_less_unmeasured = 0.06;
+  double ground_cut = 2.0;
+  double unmeasured_cut = 0.005;
+  double cut_when_landed = 0.05;
+  double landed_cut = 0.1;
+  double max_cut = 2.0;
+
+  static constexpr auto fields() {
+    using B = BlindSinking;
+    return describe(
+        field<&B::gain>("s/m", "thrust per error of descent"),
+        field<&B::ki>("1/m", "thrust per integral of that error"), field<&B::speed>("m/s", "of descent"),
+        field<&B::margin>("", "of thrust, by which it sinks and does not rise"),
+        field<&B::max_trim>("", "greatest thrust by that integral"),
+        field<&B::max_less>("", "thrust that a climb takes away at most, where a sonar measures it"),
+        field<&B::max_more>("", "thrust that a descent adds at most"),
+        field<&B::max_less_unmeasured>("", "max_less where nothing measures the climb"),
+        field<&B::ground_cut>("1/s", "at which thrust is taken back where the sonar shows the ground"),
+        field<&B::unmeasured_cut>("1/s", "at which it is where nothing measures the altitude"),
+        field<&B::cut_when_landed>("", "thrust taken back so until it has come down, and may lie on the ground"),
+        field<&B::landed_cut>("1/s", "at which it is from then on"),
+        field<&B::max_cut>("", "thrust taken back, at most"));
+  }
+};
+
+struct OnGround {
+  double altitude = 0.02;
+  double still = 0.05;
+  double carried_lift = 0.25;
+  double level = 0.05;
+  double near = 0.01;
+  double rising = 0.1;
+  double max_thrust = 1.5;
+  double run_down = 1.0;
+
+  static constexpr auto fields() {
+    using G = OnGround;
+    return describe(field<&G::altitude>("m", "up to which it may stand"),
+                    field<&G::still>("m/s", "climb of one that stands, at most"),
+                    field<&G::carried_lift>("", "of g, felt beyond the thrust of the rotors: the ground's"),
+                    field<&G::level>("rad", "lean beyond which it may stand on one foot"),
+                    field<&G::near>("m", "altitude that it has then at most, more than that of its lean"),
+                    field<&G::rising>("m/s", "climb from which on it flies"),
+                    field<&G::max_thrust>("", "with which it tries to leave the ground"),
+                    field<&G::run_down>("s", "from the thrust of hover to none where it stands").in(0.01, 100));
+  }
+};
+
+struct AltitudeLimits {
+  double min_trim = 0.4;
+  double max_trim = 1.7;
+  double min_thrust = 0.1;
+  double max_thrust = 2.0;
+  double sunk = 1;
+  double min_upright = 0.5;
+
+  static constexpr auto fields() {
+    using L = AltitudeLimits;
+    return describe(field<&L::min_trim>("", "least thrust at rest, in parts of that of hover"),
+                    field<&L::max_trim>("", "greatest"), field<&L::min_thrust>("", "least in flight"),
+                    field<&L::max_thrust>("", "greatest"),
+                    field<&L::sunk>("m/s^2", "greatest for a lasting error of altitude"),
+                    field<&L::min_upright>("", "cosine of the greatest lean that thrust makes up for").in(0.01, 1));
+  }
+};
+
 /// Altitude z (m) and climb (m/s) are positive up, from the place of take-off; thrust is in parts of that of hover. In
 /// flight, with z.place, z.speed and z.demand of the approach to a commanded altitude (approach.h) or of a landing:
 ///   a      = z.demand + kp (z.place - altitude) + kd (z.speed - climb) + sunk          m/s^2
-///   sunk_dot     = ki (z.place - altitude), |sunk| <= 1 m/s^2
-///   thrust = trim + (1 + a / g) / max(cos(phi) cos(theta), 0.5) - 1 - blind_cut,       from 0.1 to 2
-///   trim_dot     = lift_bandwidth (1 + expected - lift / g),                           trim from 0.4 to 1.7
+///   sunk_dot     = ki (z.place - altitude), |sunk| <= limits.sunk
+///   thrust = trim + (1 + a / g) / max(cos(phi) cos(theta), min_upright) - 1 - blind_cut
+///   trim_dot     = lift_bandwidth (1 + expected - lift / g)
 ///   expected_dot = (thrust - trim - expected) / lift_lag
 /// phi and theta are roll and pitch, lift the specific force that the accelerometer feels upwards along the body's axis
 /// (m/s^2), and trim what hover takes: an observer of the disturbance of thrust. On one foot, while it comes down, trim
@@ -64,11 +140,18 @@ struct AltitudeControl {
     double landing_time = 8;
     double overdue = 0.05;
     double spin_up = 1.5;
-    double blind_gain = 0.15;
-    double blind_ki = 0.1;
-    double blind_speed = 0.25;
     double foot = 0.2;
     double unload = 0.8;
+    double low = 0.15;
+    double high = 0.5;
+    double descent_gain = 3;
+    double max_descent_change = 2;
+    double max_below = 0.15;
+    double first_aloft = 0.4;
+    double mean_time = 1.0;
+    AltitudeLimits limits{};
+    OnGround ground{};
+    BlindSinking blind{};
     QuickLanding quick{};
     static constexpr auto fields() {
       using P = Param;
@@ -87,12 +170,17 @@ struct AltitudeControl {
                                   "after which a landing is overdue: it may descend more slowly than "
                                   "it believes"),
           field<&P::overdue>("m/s^2", "by which its last part gets faster then, up to twice its speed"),
-          field<&P::spin_up>("s", "from rest to idle"),
-          field<&P::blind_gain>("s/m", "thrust per error of descent when the IMU is lost"),
-          field<&P::blind_ki>("1/m", "thrust per integral of that error"),
-          field<&P::blind_speed>("m/s", "of descent then"),
-          field<&P::foot>("m", "of a foot from the axis").in(0.01, 10),
+          field<&P::spin_up>("s", "from rest to idle"), field<&P::foot>("m", "of a foot from the axis").in(0.01, 10),
           field<&P::unload>("1/s^2", "at which thrust is taken back the faster, the longer it stands on one foot"),
+          field<&P::low>("m", "altitude below which it settles when it is flown to the ground by hand"),
+          field<&P::high>("m", "altitude above which a landing descends fast"),
+          field<&P::descent_gain>("1/s", "acceleration of a landing per error of its speed"),
+          field<&P::max_descent_change>("m/s^2", "greatest of that"),
+          field<&P::max_below>("m", "by which what a landing follows is below the vehicle, at most"),
+          field<&P::first_aloft>("s", "for which the first thrust aloft counts in the mean of what carries it"),
+          field<&P::mean_time>("s", "over which that mean is"), field<&P::limits>(),
+          field<&P::ground>("", "how it knows that it stands there, or leaves it"),
+          field<&P::blind>("", "when the IMU is lost, and no laser shows how it leans"),
           field<&P::quick>("", "when the IMU is lost, but lasers show how it leans"));
     }
   };

@@ -6,9 +6,6 @@
 
 namespace jarol::tasks {
 
-/// m, up to which it may stand on the ground.
-inline constexpr double on_ground = 0.02;
-
 /// What a phase reads and writes.
 struct AltitudeStep {
   const AltitudeControl::Param& p;
@@ -29,8 +26,8 @@ void spin_up(const AltitudeStep& step);
 void leave_ground(const AltitudeStep& step);
 
 /// The IMU is lost, and no laser shows how it leans:
-///   thrust = mean_trim - blind_margin + blind_trim - blind_cut + blind_gain excess,   excess = -blind_speed - climb,
-///   blind_trim_dot = blind_ki excess
+///   thrust = mean_trim - margin + blind_trim - blind_cut + gain excess,   excess = -speed - climb,
+///   blind_trim_dot = ki excess
 /// by the climb that a sonar measures; where none does, only a blind_trim below 0 is kept. blind_cut grows on the
 /// ground, and with time where nobody measures the altitude.
 void sink_blind(const AltitudeStep& step);
@@ -40,9 +37,9 @@ bool settles(const AltitudeStep& step);
 
 /// The altitude and the climb that a landing follows, in m and s:
 ///   z.demand = w (-speed - z.speed), bounded,   z.speed_dot = z.demand,   z.place_dot = z.speed
-///   w = 3:            speed = descent above 0.5 m, if altitude and pressure are known, and touch_speed + late below,
+///   w = descent_gain: speed = descent above `high`, if altitude and pressure are known, and touch_speed + late below,
 ///                     late = overdue (landing - landing_time) from 0 to touch_speed
-///   quick, w = 10:    speed = part sqrt(touch_speed^2 + 2 brake (altitude - low)), up to part descent, and at least
+///   quick, w = gain:  speed = part sqrt(touch_speed^2 + 2 brake (altitude - low)), up to part descent, and at least
 ///                     touch_speed; part = 2 - hypot(v_x, v_y) / drift from 0 to 1
 void descend(const AltitudeStep& step, bool quick);
 

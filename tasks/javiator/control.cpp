@@ -10,30 +10,25 @@
 namespace jarol::tasks {
 namespace {
 
-constexpr double max_place_trim = 1;  // m/s^2
-
 struct Held {
   double place, speed, drag;
 };
 
 double hold(const PositionControl::Param& p, const Approach& a, const Held& is, bool blind, double& trim, double dt) {
-  trim = limited(trim + p.ki * (a.place - is.place) * dt, max_place_trim);
+  trim = limited(trim + p.ki * (a.place - is.place) * dt, p.max_trim);
   const double kp = blind ? p.blind_kp : p.kp, kd = blind ? p.blind_kd : p.kd;
   return a.demand + kp * (a.place - is.place) + kd * (a.speed - is.speed) - is.drag + trim;
 }
 
-constexpr double model_part = 0.8;  // of the greatest demand, at most, for what the model takes
-constexpr double trim_part = 0.2;   // of it, at most, for what is learnt
-
 double turn(const TurnGains& g, TurnModel& model, double goal, double angle, double rate, double dt) {
   const double w = g.bandwidth;
-  const double max = model_part * g.limit * g.effect;
+  const double max = g.model_part * g.limit * g.effect;
   const double speed = limited(0.5 * w * (goal - model.angle), g.rate);
   const double acceleration = limited(2 * w * (speed - model.rate), max);
   model.angle += model.rate * dt + 0.5 * acceleration * dt * dt;
   model.rate += acceleration * dt;
   const double error = wrapped(model.angle - angle);
-  model.trim = limited(model.trim + g.ki * error * dt, trim_part * g.limit);
+  model.trim = limited(model.trim + g.ki * error * dt, g.trim_part * g.limit);
   const double demand =
       limited(acceleration / g.effect + g.kp * error + g.kd * (model.rate - rate) + model.trim, g.limit);
   // a zero at 1/spin_time is cancelled
@@ -117,8 +112,7 @@ void AttitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   out.turn.roll = turn(p.lean, state.roll, in.goal.roll, e.roll, e.p, dt);
   out.turn.pitch = turn(p.lean, state.pitch, in.goal.pitch, e.pitch, e.q, dt);
   // it was turned while it stood, or its heading is counted anew
-  constexpr double astray = 0.5;  // rad
-  if (std::abs(wrapped(state.yaw.angle - e.yaw)) > astray) {
+  if (std::abs(wrapped(state.yaw.angle - e.yaw)) > p.astray) {
     state.yaw.angle = e.yaw;
     state.yaw.rate = e.r;
   }

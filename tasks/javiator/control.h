@@ -18,7 +18,7 @@ namespace jarol::tasks {
 
 /// Where it holds a place it follows an approach to it (approach.h), with a_d the acceleration that this demands:
 ///   a      = a_d + kp (x_d - x) + kd (v_d - v) - drag + trim           m/s^2, for north and east alike
-///   trim_dot = ki (x_d - x),                                           |trim| <= 1 m/s^2
+///   trim_dot = ki (x_d - x),                                           |trim| <= max_trim
 ///   drag_dot = (drag felt - drag) / drag_time
 ///   phi_d   = atan((cos(psi) a_east - sin(psi) a_north) / g),          |phi_d| <= lean_limit
 ///   theta_d = -atan((cos(psi) a_north + sin(psi) a_east) / g),         |theta_d| <= lean_limit
@@ -38,6 +38,7 @@ struct PositionControl {
     double stand_time = 0.3;
     double blind_kp = 0.6;
     double blind_kd = 1.5;
+    double max_trim = 1;
     static constexpr auto fields() {
       using P = Param;
       return describe(field<&P::kp>("1/s^2", "acceleration per error of place"),
@@ -48,7 +49,8 @@ struct PositionControl {
                       field<&P::lean_limit>("rad", "greatest roll and pitch demanded").in(0, std::numbers::pi / 2),
                       field<&P::stand_time>("s", "in which it levels where it stands").in(0.02, 100),
                       field<&P::blind_kp>("1/s^2", "kp when lasers show how it leans, slower than an IMU"),
-                      field<&P::blind_kd>("1/s", "kd then"));
+                      field<&P::blind_kd>("1/s", "kd then"),
+                      field<&P::max_trim>("m/s^2", "acceleration that the integral adds, at most"));
     }
   };
   struct In {
@@ -82,9 +84,9 @@ struct PositionControl {
 /// One axis of attitude, of angle a and rate a_dot: it follows a critically damped model of the second order, whose
 /// demand it knows, w being the bandwidth:
 ///   rate_d = w / 2 (goal - model.angle),            |rate_d| <= rate
-///   acceleration = 2 w (rate_d - model.rate),       |acceleration| <= 0.8 limit effect       (s^2 + 2 w s + w^2)
-///   demand = acceleration / effect + kp (model.angle - a) + kd (model.rate - a_dot) + trim,  |demand| <= limit
-///   trim_dot = ki (model.angle - a),                |trim| <= 0.2 limit; it is added to before it is used
+///   acceleration = 2 w (rate_d - model.rate),       |acceleration| <= model_part limit effect       (s^2 + 2 w s +
+///   w^2) demand = acceleration / effect + kp (model.angle - a) + kd (model.rate - a_dot) + trim,  |demand| <= limit
+///   trim_dot = ki (model.angle - a),                |trim| <= trim_part limit; it is added to before it is used
 ///   given_dot = (demand - given) / spin_time, which cancels a zero at -1 / spin_time: the hull turns more while rotors
 ///               speed up than by their drag. Without a spin_time it is the demand.
 struct TurnGains {
@@ -96,6 +98,8 @@ struct TurnGains {
   double limit = 1;
   double spin_time = 0;
   double rate = 20;
+  double model_part = 0.8;
+  double trim_part = 0.2;
 
   static constexpr auto fields() {
     using G = TurnGains;
@@ -105,7 +109,9 @@ struct TurnGains {
                     field<&G::ki>("1/(rad s)", "demand per integral of the error"),
                     field<&G::limit>("", "greatest demand").in(0, 1),
                     field<&G::spin_time>("s", "for which the hull turns more as rotors speed up than by their drag"),
-                    field<&G::rate>("rad/s", "greatest, of the model").in(0, 100));
+                    field<&G::rate>("rad/s", "greatest, of the model").in(0, 100),
+                    field<&G::model_part>("", "of the greatest demand, at most, for what the model takes").in(0, 1),
+                    field<&G::trim_part>("", "of it, at most, for what is learnt").in(0, 1));
   }
 };
 
@@ -134,11 +140,12 @@ struct AttitudeControl {
                   .spin_time = 0.53,
                   .rate = 1.2};
     double contact = 0.04;
+    double astray = 0.5;
     static constexpr auto fields() {
       using P = Param;
-      return describe(
-          field<&P::lean>("", "roll and pitch"), field<&P::yaw>(),
-          field<&P::contact>("m", "altitude below which lasers do not show how it leans: a foot may stand"));
+      return describe(field<&P::lean>("", "roll and pitch"), field<&P::yaw>(),
+                      field<&P::contact>("m", "altitude below which lasers do not show how it leans: a foot may stand"),
+                      field<&P::astray>("rad", "of yaw, by which it was turned while it stood, or is counted anew"));
     }
   };
   struct In {

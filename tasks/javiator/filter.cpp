@@ -16,10 +16,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr std::int64_t longest_pause = 100;  // activations: after more of them little is known anyway
-// A turn that was neither felt nor foreseen, while nothing was heard for longer than a few lost packets.
-constexpr double felt_gap = 0.1;   // s
-constexpr double unfelt_rate = 2;  // rad/s
-constexpr double nowhere = 1e9;    // m
+constexpr double nowhere = 1e9;              // m
 
 bool is_near(const AxisObserver& axis, double measured, double jump) { return std::abs(measured - axis.place) < jump; }
 
@@ -62,7 +59,7 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
   state.before.stood = settled;
 
   // angles follow the rates, and what is measured unless it jumps: wrong angles would turn the rates wrongly, too
-  const double angle_jump = p.angle_jump + unfelt_rate * std::max(gap - felt_gap, 0.0);
+  const double angle_jump = p.angle_jump + p.unfelt.rate * std::max(gap - p.unfelt.gap, 0.0);
   const auto near = [&](double roll, double pitch) {
     return std::abs(s.roll - roll) < angle_jump && std::abs(s.pitch - pitch) < angle_jump;
   };

@@ -22,6 +22,7 @@ struct DriftLimits {
   double angle = 0.015;
   double pull = 0.02;
   double pull_time = 1.5;
+  double new_part = 0.05;
 
   static constexpr auto fields() {
     using D = DriftLimits;
@@ -33,7 +34,8 @@ struct DriftLimits {
         field<&D::angle_bandwidth>("rad/s", "at which angles correct those that the rates turn"),
         field<&D::angle>("rad", "between them at which the angles are not credible, if the place is as well"),
         field<&D::pull>("rad", "of an angle that sideways acceleration without a cause shows"),
-        field<&D::pull_time>("s", "over which that is averaged"));
+        field<&D::pull_time>("s", "over which that is averaged"),
+        field<&D::new_part>("", "of a new difference between sensors in its average").in(0, 1));
   }
 };
 
@@ -48,6 +50,17 @@ struct UnseenPlace {
     return describe(field<&U::patience>("s", "for which what it feels is as good"),
                     field<&U::max_time>("s", "after which it takes walls for others, and is lost"),
                     field<&U::speed>("m/s", "at which what it feels may go astray meanwhile"));
+  }
+};
+
+/// A turn that was neither felt nor foreseen, while the IMU was not heard for longer than a few lost packets.
+struct UnfeltTurn {
+  double gap = 0.1;
+  double rate = 2;
+
+  static constexpr auto fields() {
+    return describe(field<&UnfeltTurn::gap>("s", "without the IMU, from which on it may have turned so"),
+                    field<&UnfeltTurn::rate>("rad/s", "of that turn"));
   }
 };
 
@@ -104,7 +117,8 @@ struct ReadingAge {
 ///   altitude:   z of R_nb (sonar_x, sonar_y, sonar_z + range), from where it stood, corrects the third of them
 ///   place:      find_place (room.h) of each laser's range with the rotation at that time, the first two
 ///   drift:      a second observer upwards, and a SlowAngle of roll and pitch, hardly corrected (filter_checks.h)
-///   pressure:   h = (mean on the ground - pressure) / (12 Pa/m); without a sonar, with e = h - z at each reading,
+///   pressure:   h = (mean on the ground - pressure) / pascal_per_metre; without a sonar, with e = h - z at each
+///   reading,
 ///               z += pressure_place e,   climb += pressure_speed e
 /// Between readings of the IMU rates and forces fade by e^(-since / fade), rates to 0 and f_b to R_nb^T (0, 0, -g). The
 /// estimate is turned on by the age of what is measured: angle + age rate. While the IMU is lost the angles, and place
@@ -126,8 +140,10 @@ struct JaviatorFilter {
     double sonar_jump = 0.08;
     double sonar_jump_rate = 0.1;
     double angle_jump = 0.1;
+    UnfeltTurn unfelt{};
     double pressure_jump = 15;
     double pressure_noise = 6;
+    double pascal_per_metre = 12;
     double disagreement = 0.6;
     DriftLimits drift{};
     double pressure_place = 0.05;
@@ -153,12 +169,13 @@ struct JaviatorFilter {
           field<&P::range_jump>("m", "from the estimate at which a range is not credible"),
           field<&P::sonar_jump>("m", "the same, of the sonar right after a credible range"),
           field<&P::sonar_jump_rate>("m/s", "at which that grows until the next one, up to that of any range"),
-          field<&P::angle_jump>("rad",
-                                "the same, for roll and pitch; more, where the IMU was not heard for 0.1 s and longer"),
+          field<&P::angle_jump>("rad", "the same, for roll and pitch"),
+          field<&P::unfelt>("", "turn while the IMU was not heard, by which angle_jump grows"),
           field<&P::pressure_jump>("Pa", "from one reading to the next, which is not credible").in(0, 1000),
           field<&P::pressure_noise>(
               "", "times the RMS step on the ground that one in flight may have, up to 4 pressure_jump")
               .in(0, 100),
+          field<&P::pascal_per_metre>("Pa/m", "by which the pressure falls, upwards").in(1, 100),
           field<&P::disagreement>("m", "between sonar and pressure from which on one of them is not credible"),
           field<&P::drift>("", "of sensors, how it is found"),
           field<&P::pressure_place>("", "part of what the pressure differs by that is taken without a sonar"),

@@ -6,12 +6,6 @@
 #include "graph/math/geometry.h"
 
 namespace jarol::tasks {
-namespace {
-
-constexpr double pascal_per_metre = 12.0;
-constexpr double new_part = 0.05;  // of a new difference in its average
-
-}  // namespace
 
 void compare_climb(JaviatorFilter::State& state, const JaviatorFilter::Param& p, double dt) {
   state.climb_off += (state.z.speed - state.z_slow.speed - state.climb_off) * dt / p.drift.climb_time;
@@ -23,8 +17,8 @@ double credible_step(const JaviatorFilter::State& state, const JaviatorFilter::P
 }
 
 void weigh_pressure(JaviatorFilter::State& state, const JaviatorFilter::Param& p, double pressure) {
-  const double residual = (state.ground.mean - pressure) / pascal_per_metre - state.z.place;
-  state.disagreement += new_part * (residual - state.disagreement);
+  const double residual = (state.ground.mean - pressure) / p.pascal_per_metre - state.z.place;
+  state.disagreement += p.drift.new_part * (residual - state.disagreement);
   if (!state.sonar.lost && std::abs(state.disagreement) > p.disagreement) {
     if (state.climb_was_off < p.drift.climb) {
       state.pressure.lost = true;
@@ -59,8 +53,8 @@ void watch_drift(JaviatorFilter::State& state, const JaviatorFilter::Param& p, c
 
 bool feels_level(JaviatorFilter::State& state, const JaviatorFilter::Param& p, const JaviatorSensors& s) {
   const double roll = std::atan2(-s.a_y, -s.a_z), pitch = std::atan2(s.a_x, std::hypot(s.a_y, s.a_z));
-  state.slant_roll += new_part * (roll - s.roll - state.slant_roll);
-  state.slant_pitch += new_part * (pitch - s.pitch - state.slant_pitch);
+  state.slant_roll += p.drift.new_part * (roll - s.roll - state.slant_roll);
+  state.slant_pitch += p.drift.new_part * (pitch - s.pitch - state.slant_pitch);
   return std::abs(state.slant_roll) < p.angle_jump && std::abs(state.slant_pitch) < p.angle_jump;
 }
 

@@ -13,8 +13,6 @@ namespace {
 
 using Cause = LandingCause;
 
-constexpr double long_silence = 0.3;  // s: after it nobody knows whether it flies
-
 Cause find_lean(const FlightLogic::Param& p, const FlightEstimate& e) {
   if (std::abs(e.roll) > p.roll_limit) return Cause::roll;
   return std::abs(e.pitch) > p.pitch_limit ? Cause::pitch : Cause::none;
@@ -44,16 +42,14 @@ bool may_fall(const FlightLogic::Param& p, const FlightEstimate& e, double thrus
 // For how long that has to last. A motor that gives more than it is commanded carries it aloft with little thrust
 // demanded.
 double touch_time(const FlightLogic::Param& p, const FlightEstimate& e, double thrust) {
-  constexpr double high = 0.5;  // m
-  if (e.altitude_known && e.altitude >= high) return p.high_time;
+  if (e.altitude_known && e.altitude >= p.high) return p.high_time;
   return may_fall(p, e, thrust) ? p.doubt_time : p.touch_time;
 }
 
 // Its rotors give what they can, and it does not rise.
 bool lacks_lift(const FlightLogic::Param& p, const FlightLogic::In& in, const FlightDirective& d) {
-  constexpr double below = 0.1, slow = 0.05;  // m, m/s
   const FlightEstimate& e = in.estimate;
-  return in.lift.thrust > p.full && e.altitude < d.altitude - below && e.climb < slow;
+  return in.lift.thrust > p.full && e.altitude < d.altitude - p.too_low && e.climb < p.no_climb;
 }
 
 // Why it can't go on flying as it is commanded, if so.
@@ -82,14 +78,11 @@ void enter(FlightState next, Cause cause, FlightLogic::State& state, FlightDirec
 }
 
 // Where it comes to rest; but in a turn, or where its lasers have not seen enough, along the walls that it can see.
-double find_yaw(Cause cause, const FlightEstimate& e, bool wants_position) {
-  constexpr double turns = 0.3;      // rad/s
-  constexpr double stop_time = 0.3;  // s
+double find_yaw(const FlightLogic::Param& p, Cause cause, const FlightEstimate& e, bool wants_position) {
   constexpr double quarter = 0.5 * std::numbers::pi;
-  constexpr double low = 0.3;  // m: no time to turn
-  if (!wants_position || cause == Cause::motor_weak || (e.altitude_known && e.altitude < low)) return e.yaw;
-  if (cause != Cause::position_lost && std::abs(e.r) < turns) return e.yaw;
-  const double heading = e.heading + stop_time * e.r;
+  if (!wants_position || cause == Cause::motor_weak || (e.altitude_known && e.altitude < p.low)) return e.yaw;
+  if (cause != Cause::position_lost && std::abs(e.r) < p.turning.rate) return e.yaw;
+  const double heading = e.heading + p.turning.stop_time * e.r;
   return e.yaw + quarter * std::round(heading / quarter) - e.heading;
 }
 
@@ -100,10 +93,11 @@ void stay_here(const FlightEstimate& e, FlightDirective& d) {
   d.y = e.y + 0.5 * e.v_y;
 }
 
-void begin_landing(Cause cause, const FlightEstimate& e, FlightLogic::State& state, FlightDirective& d) {
+void begin_landing(const FlightLogic::Param& p, Cause cause, const FlightEstimate& e, FlightLogic::State& state,
+                   FlightDirective& d) {
   enter(FlightState::landing, cause, state, d);
   stay_here(e, d);
-  d.yaw = find_yaw(cause, e, d.hold_position);
+  d.yaw = find_yaw(p, cause, e, d.hold_position);
   d.altitude = 0;
 }
 
@@ -112,35 +106,32 @@ void see_wall(const PlaceFix& fix, Walls& walls) {
 }
 
 // No nearer than half of its span and what it overshoots, but for where it took off.
-double before_walls(double place, const Walls& walls) {
-  constexpr double margin = 1.5;  // m
+double before_walls(double place, const Walls& walls, double margin) {
   return std::clamp(place, std::min(walls.behind + margin, 0.0), std::max(walls.ahead - margin, 0.0));
 }
 
-void follow(const PilotCommand& command, const FlightEstimate& e, bool wants_position, FlightLogic::State& state,
-            FlightDirective& d) {
-  constexpr double ground = 0.02, low = 0.3;  // m; below it a lean brings feet near the ground
-  constexpr double near = 0.5, fast = 1;      // m, m/s
+void follow(const FlightLogic::Param& p, const PilotCommand& command, const FlightEstimate& e, bool wants_position,
+            FlightLogic::State& state, FlightDirective& d) {
   d.hold_position = wants_position;
   d.yaw = command.yaw;
   d.altitude = std::max(command.altitude, 0.0);
   // sent to the ground it comes down where it is, wherever else it is sent
-  const bool to_ground = command.altitude <= ground;
-  const bool settles = wants_position && to_ground && !d.stands && e.altitude_known && e.altitude < low;
+  const bool to_ground = command.altitude <= p.on_ground;
+  const bool settles = wants_position && to_ground && !d.stands && e.altitude_known && e.altitude < p.low;
   if (settles && !state.settles) stay_here(e, d);
   state.settles = settles;
   if (settles) return;
   d.roll = command.roll;
   d.pitch = command.pitch;
-  d.x = before_walls(command.x, state.walls_x);
-  d.y = before_walls(command.y, state.walls_y);
-  const bool is_far = !to_ground && std::hypot(d.x - e.x, d.y - e.y) > near;
-  if (wants_position && !d.stands && (is_far || std::hypot(e.v_x, e.v_y) > fast))
-    d.altitude = std::max(d.altitude, low);
+  d.x = before_walls(command.x, state.walls_x, p.way.wall_margin);
+  d.y = before_walls(command.y, state.walls_y, p.way.wall_margin);
+  const bool is_far = !to_ground && std::hypot(d.x - e.x, d.y - e.y) > p.way.far;
+  if (wants_position && !d.stands && (is_far || std::hypot(e.v_x, e.v_y) > p.way.fast))
+    d.altitude = std::max(d.altitude, p.low);
 }
 
 // the operator's keys: unlock, take off, land
-void press_switch(const FlightEstimate& e, FlightLogic::State& state, FlightDirective& d) {
+void press_switch(const FlightLogic::Param& p, const FlightEstimate& e, FlightLogic::State& state, FlightDirective& d) {
   switch (d.state) {
     case FlightState::halt: enter(FlightState::ground, Cause::none, state, d); break;
     case FlightState::ground:
@@ -149,7 +140,7 @@ void press_switch(const FlightEstimate& e, FlightLogic::State& state, FlightDire
       state.walls_x = state.walls_y = {};  // places are counted from here
       break;
     case FlightState::starting: enter(FlightState::ground, Cause::none, state, d); break;
-    case FlightState::flying: begin_landing(Cause::none, e, state, d); break;
+    case FlightState::flying: begin_landing(p, Cause::none, e, state, d); break;
     case FlightState::landing: break;
   }
 }
@@ -166,7 +157,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   // nobody looked during activations that were left out
   const std::int64_t before = std::exchange(state.before, tick.activation);
   const double passed = before < 0 ? dt : dt * static_cast<double>(tick.activation - before);
-  const bool is_heard_again = e.answers_known && state.unanswered > long_silence;
+  const bool is_heard_again = e.answers_known && state.unanswered > p.long_silence;
   state.unanswered = e.answers_known && passed < p.answers_patience ? 0 : state.unanswered + passed;
   see_wall(e.fix_x, state.walls_x);
   see_wall(e.fix_y, state.walls_y);
@@ -175,7 +166,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   if (command.shut_downs != state.shut_downs) {
     enter(FlightState::halt, Cause::none, state, d);
   } else if (command.state_switches != state.state_switches && passed < p.answers_patience) {
-    press_switch(e, state, d);
+    press_switch(p, e, state, d);
   }
   state.shut_downs = command.shut_downs;
   state.state_switches = command.state_switches;
@@ -198,9 +189,9 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
       // it goes on over its feet, and thrust would only throw it
       enter(FlightState::halt, cause, state, d);
     } else if (cause != Cause::none) {
-      begin_landing(cause, e, state, d);
+      begin_landing(p, cause, e, state, d);
     } else {
-      follow(command, e, wants_position, state, d);
+      follow(p, command, e, wants_position, state, d);
     }
   }
   if (d.state == FlightState::landing) {
@@ -209,7 +200,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
     if (d.cause == Cause::none || d.cause == Cause::operator_lost)
       if (const Cause cause = find_cause(p, in, wants_position, 0); cause != Cause::none) {
         d.cause = cause;
-        if (cause == Cause::position_lost) d.yaw = find_yaw(cause, e, wants_position);
+        if (cause == Cause::position_lost) d.yaw = find_yaw(p, cause, e, wants_position);
       }
     const double counted = dt * p.touch_time / touch_time(p, e, in.lift.thrust);
     state.still = has_touched(p, e, in.lift.thrust) ? state.still + counted : 0;
@@ -217,7 +208,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
     // out of control it is better on the ground here than somewhere else; a lean that lasers show may be another
     if (state.lies_over > (measures_lean(e) ? p.out_of_control_time : p.touch_time))
       enter(FlightState::halt, d.cause, state, d);
-    else if (state.since > 1 && state.still > p.touch_time)
+    else if (state.since > p.least_time && state.still > p.touch_time)
       enter(FlightState::ground, d.cause, state, d);
   }
   const bool flies = d.state != FlightState::halt && d.state != FlightState::ground;

@@ -18,6 +18,33 @@ struct Walls {
   static constexpr auto fields() { return describe(field<&Walls::ahead>("m"), field<&Walls::behind>("m")); }
 };
 
+/// When it flies to another place, and how near to walls that its lasers see.
+struct WayLimits {
+  double far = 0.5;
+  double fast = 1;
+  double wall_margin = 1.5;
+
+  static constexpr auto fields() {
+    using W = WayLimits;
+    return describe(field<&W::far>("m", "from the place, beyond which it is on its way there"),
+                    field<&W::fast>("m/s", "to the side, beyond which it is on its way"),
+                    field<&W::wall_margin>(
+                        "m", "from a wall to the places that it flies to: half of its span, and what it overshoots"));
+  }
+};
+
+/// When a landing begins in a turn, which ends along the walls that its lasers can see.
+struct LandingTurn {
+  double rate = 0.3;
+  double stop_time = 0.3;
+
+  static constexpr auto fields() {
+    using T = LandingTurn;
+    return describe(field<&T::rate>("rad/s", "of yaw, from which on it turns"),
+                    field<&T::stop_time>("s", "in which such a turn comes to rest, by that rate"));
+  }
+};
+
 struct FlightLogic {
   static constexpr std::string_view summary = "decides when the helicopter starts, flies and lands";
   struct Param {
@@ -42,6 +69,15 @@ struct FlightLogic {
     double tips_below = 0.2;
     double full = 1.4;
     double lift_patience = 1.5;
+    double too_low = 0.1;
+    double no_climb = 0.05;
+    double least_time = 1;
+    double long_silence = 0.3;
+    double high = 0.5;
+    double low = 0.3;
+    double on_ground = 0.02;
+    WayLimits way{};
+    LandingTurn turning{};
     static constexpr auto fields() {
       using P = Param;
       return describe(
@@ -73,7 +109,15 @@ struct FlightLogic {
                                 "altitude below which a lean beyond its limit locks the motors: it tips over; and "
                                 "below which it has come down while the Robostix was silent"),
           field<&P::full>("", "thrust that lifts whatever it may carry"),
-          field<&P::lift_patience>("s", "for which that does not lift it, before it lands"));
+          field<&P::lift_patience>("s", "for which that does not lift it, before it lands"),
+          field<&P::too_low>("m", "below the altitude commanded: it is not lifted"),
+          field<&P::no_climb>("m/s", "climb below which it is not"),
+          field<&P::least_time>("s", "of a landing, before it can be over"),
+          field<&P::long_silence>("s", "of the Robostix, after which nobody knows whether it flies"),
+          field<&P::high>("m", "altitude from which on it touches nothing, if that is measured").in(0, 100),
+          field<&P::low>("m", "altitude below which a lean brings feet near the ground, and there is no time to turn"),
+          field<&P::on_ground>("m", "altitude commanded up to which it is sent to the ground"),
+          field<&P::way>("", "to another place"), field<&P::turning>("", "a landing that begins in a turn"));
     }
   };
   struct In {

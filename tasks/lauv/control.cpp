@@ -9,16 +9,14 @@
 namespace jarol::tasks {
 namespace {
 
-constexpr double astern = 0.4;      // m/s
-constexpr double some_waves = 1.5;  // s, over which the surge is averaged: who rests in waves moves to and fro
-
 // By a propeller that does not do what it is sent. Then nothing steers: the push of a fin at the stern moves the hull
 // across the flow, and what the hull does there undoes the fin's moment, more than that above some 0.6 m/s. What is
 // left is how deep it goes: least with the stern lifted, and with rudders hard over, as circles cost speed.
-bool driven_astern(const Motion& m, const Setpoint& setpoint, double& surge, double dt) {
-  surge += (m.u - surge) * dt / (some_waves + dt);
-  return surge < -astern && (setpoint.drive == Drive::speed || setpoint.thrust >= 0);
+bool is_driven_astern(const DrivenAstern& p, const Setpoint& setpoint, double surge) {
+  return surge < -p.speed && (setpoint.drive == Drive::speed || setpoint.thrust >= 0);
 }
+
+double averaged(double surge, double u, double time, double dt) { return surge + (u - surge) * dt / (time + dt); }
 
 }  // namespace
 
@@ -33,21 +31,22 @@ void DepthControl::run(const Param& p, const Tick& tick, const In& in, State& st
   const double theta = limited(wanted, p.limit);
   // learn the trim only close to the depth: on the way down it would wind up; and no more of it, as where it rests at
   // the surface, than what leaves the vehicle so close that it learns again
-  constexpr double within = 0.9;  // of the reach
-  const double max = std::min(p.limit, within * p.kp * p.reach);
+  const double max = std::min(p.limit, p.within * p.kp * p.reach);
   if (std::abs(error) < p.reach)
     state.pitch_trim = limited(state.pitch_trim - p.ki * error * seconds(tick.period), max);
   // the rate of the Euler angle, not of the body: they differ in a turn
   const double theta_dot = m.q * std::cos(m.phi) - m.r * std::sin(m.phi);
   out.moment.angle = limited(p.pitch_kp * (theta - m.theta) - p.pitch_kd * theta_dot, p.fin_limit);
-  if (driven_astern(m, in.setpoint, state.surge, seconds(tick.period))) out.moment.angle = p.fin_limit;
+  state.surge = averaged(state.surge, m.u, p.astern.time, seconds(tick.period));
+  if (is_driven_astern(p.astern, in.setpoint, state.surge)) out.moment.angle = p.fin_limit;
 }
 
 void HeadingControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   const double error = wrapped(in.setpoint.heading - in.motion.psi);
   const double rate = limited(in.setpoint.turn == Turn::rate ? in.setpoint.rate : p.kp * error, p.rate_limit);
   out.moment.angle = limited(p.rate_kp * (rate - in.motion.r), p.fin_limit);
-  if (driven_astern(in.motion, in.setpoint, state.surge, seconds(tick.period))) out.moment.angle = p.fin_limit;
+  state.surge = averaged(state.surge, in.motion.u, p.astern.time, seconds(tick.period));
+  if (is_driven_astern(p.astern, in.setpoint, state.surge)) out.moment.angle = p.fin_limit;
 }
 
 void SpeedControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {

@@ -14,16 +14,28 @@
 
 namespace jarol::tasks {
 
+/// Beyond which nothing steers: a propeller that does not do what it is sent drives the hull astern.
+struct DrivenAstern {
+  double speed = 0.4;
+  double time = 1.5;
+  static constexpr auto fields() {
+    using A = DrivenAstern;
+    return describe(
+        field<&A::speed>("m/s", "astern, averaged").in(0, 10),
+        field<&A::time>("s", "of that average, some waves: who rests in waves moves to and fro").in(0, 100));
+  }
+};
+
 /// DUNE's Attitude: a PD law of depth commands a pitch, and one of pitch a fin angle; positive is nose up.
 ///   e       = setpoint.depth - z
 ///   z_dot   = -u sin(theta) + v cos(theta) sin(phi) + w cos(theta) cos(phi)
 ///   theta_d = -kp e + kd z_dot + pitch_trim,                                |theta_d| <= limit
-///   pitch_trim_dot = -ki e while |e| < reach,                               |pitch_trim| <= min(limit, 0.9 kp reach)
-///   moment  = pitch_kp (theta_d - theta) - pitch_kd theta_dot,              |moment| <= fin_limit
-///   theta_dot = q cos(phi) - r sin(phi)
+///   pitch_trim_dot = -ki e while |e| < reach,                               |pitch_trim| <= min(limit, within kp
+///   reach) moment  = pitch_kp (theta_d - theta) - pitch_kd theta_dot,              |moment| <= fin_limit theta_dot = q
+///   cos(phi) - r sin(phi)
 /// The integral is this project's: DUNE has none set for its simulator, and stays 5 cm above a depth of 3 m there.
-/// Driven astern by a propeller that does not obey (u < -0.4 m/s for some seconds) nothing steers: moment = fin_limit,
-/// see vehicles/failures.md.
+/// Driven astern by a propeller that does not obey (u, averaged over astern.time, < -astern.speed) nothing steers:
+/// moment = fin_limit, see vehicles/failures.md.
 struct DepthControl {
   static constexpr std::string_view summary = "holds a commanded depth with the stern planes";
   struct Param {
@@ -31,20 +43,24 @@ struct DepthControl {
     double kd = 0.45;
     double ki = 0.05;
     double reach = 0.5;
+    double within = 0.9;
     double limit = 25 * degree;
     double pitch_kp = 1.5;
     double pitch_kd = 1.1;
     double fin_limit = 25 * degree;
+    DrivenAstern astern{};
     static constexpr auto fields() {
       using P = Param;
       return describe(field<&P::kp>("rad/m", "pitch per depth error").in(0, 10),
                       field<&P::kd>("rad s/m", "pitch per rate of depth").in(0, 10),
                       field<&P::ki>("rad/(m s)", "pitch per integral of depth error").in(0, 10),
                       field<&P::reach>("m", "depth error below which the integral works"),
+                      field<&P::within>("", "part of that reach that the integral may make up for").in(0, 1),
                       field<&P::limit>("rad", "greatest pitch demanded").in(0, 90 * degree),
                       field<&P::pitch_kp>("", "fin angle per pitch error").in(0, 100),
                       field<&P::pitch_kd>("s", "fin angle per pitch rate").in(0, 100),
-                      field<&P::fin_limit>("rad", "greatest fin angle demanded").in(0, max_fin_angle));
+                      field<&P::fin_limit>("rad", "greatest fin angle demanded").in(0, max_fin_angle),
+                      field<&P::astern>());
     }
   };
   struct In {
@@ -77,12 +93,14 @@ struct HeadingControl {
     double rate_limit = 20 * degree;
     double rate_kp = 1.2;
     double fin_limit = 25 * degree;
+    DrivenAstern astern{};
     static constexpr auto fields() {
       using P = Param;
       return describe(field<&P::kp>("1/s", "yaw rate per heading error").in(0, 100),
                       field<&P::rate_limit>("rad/s", "greatest yaw rate demanded").in(0, 360 * degree),
                       field<&P::rate_kp>("s", "fin angle per error of yaw rate").in(0, 100),
-                      field<&P::fin_limit>("rad", "greatest fin angle demanded").in(0, max_fin_angle));
+                      field<&P::fin_limit>("rad", "greatest fin angle demanded").in(0, max_fin_angle),
+                      field<&P::astern>());
     }
   };
   struct In {
