@@ -12,6 +12,7 @@ namespace jarol::tasks {
 
 /// A landing that is over before gusts turn it: nobody feels them, and lasers show a lean towards their walls late.
 struct QuickLanding {
+  double kp = 20;
   double gain = 10;
   double descent = 1.6;
   double acceleration = 5;
@@ -19,20 +20,21 @@ struct QuickLanding {
   double low = 0.1;
   double touch_speed = 0.2;
   double drift = 0.7;
-  double contact = 0.025;
-  double cut = 5;
+  double contact = 0.045;
+  double cut = 1.4;
 
   static constexpr auto fields() {
     using Q = QuickLanding;
     return describe(
-        field<&Q::gain>("1/s", "acceleration per error of speed"), field<&Q::descent>("m/s", "at most"),
-        field<&Q::acceleration>("m/s^2", "into it, at most"), field<&Q::brake>("m/s^2", "out of it").in(0, 100),
+        field<&Q::kp>("1/s^2", "kp of it"), field<&Q::gain>("1/s", "acceleration per error of speed"),
+        field<&Q::descent>("m/s", "at most"), field<&Q::acceleration>("m/s^2", "into it, at most"),
+        field<&Q::brake>("m/s^2", "out of it").in(0, 100),
         field<&Q::low>("m", "altitude at which it has slowed to touch_speed"),
         field<&Q::touch_speed>("m/s", "of its last part"),
         field<&Q::drift>("m/s", "to the side, beyond which it descends more slowly, at twice of it by touch_speed")
             .in(0.01, 100),
         field<&Q::contact>("m", "altitude from which on thrust is taken back: a foot may stand"),
-        field<&Q::cut>("1/s", "at which it is"));
+        field<&Q::cut>("1/s", "at which it is: it settles on its other feet"));
   }
 };
 

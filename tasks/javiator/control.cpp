@@ -10,6 +10,12 @@
 namespace jarol::tasks {
 namespace {
 
+// Of the lean that holds its place, near the ground.
+double lean_part(const BlindTouch& p, double altitude) {
+  const double up = std::clamp((altitude - p.low) / p.over, 0.0, 1.0);
+  return p.lean + (1 - p.lean) * up;
+}
+
 struct Held {
   double place, speed, drag;
 };
@@ -96,6 +102,10 @@ void PositionControl::run(const Param& p, const Tick& tick, const In& in, State&
   const double a_x = hold(p, state.x, {e.x, e.v_x, state.drag_x}, blind, state.trim_x, dt);
   const double a_y = hold(p, state.y, {e.y, e.v_y, state.drag_y}, blind, state.trim_y, dt);
   lean(a_x, a_y);
+  if (!blind || d.state != FlightState::landing) return;
+  const double part = lean_part(p.touch, e.altitude);
+  out.goal.roll *= part;
+  out.goal.pitch *= part;
 }
 
 void AttitudeControl::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {

@@ -16,6 +16,21 @@
 
 namespace jarol::tasks {
 
+/// How far it leans where it touches the ground without an IMU: the less, the softer its other feet come down; but it
+/// drifts with the wind.
+struct BlindTouch {
+  double lean = 0.6;
+  double low = 0.03;
+  double over = 0.07;
+
+  static constexpr auto fields() {
+    using T = BlindTouch;
+    return describe(field<&T::lean>("", "part of the lean that holds its place").in(0, 1),
+                    field<&T::low>("m", "altitude down to which its lean falls to that").in(0, 10),
+                    field<&T::over>("m", "of altitude, over which it does").in(0.001, 10));
+  }
+};
+
 /// Where it holds a place it follows an approach to it (approach.h), with a_d the acceleration that this demands:
 ///   a      = a_d + kp (x_d - x) + kd (v_d - v) - drag + trim           m/s^2, for north and east alike
 ///   trim_dot = ki (x_d - x),                                           |trim| <= max_trim
@@ -23,9 +38,10 @@ namespace jarol::tasks {
 ///   phi_d   = atan((cos(psi) a_east - sin(psi) a_north) / g),          |phi_d| <= lean_limit
 ///   theta_d = -atan((cos(psi) a_north + sin(psi) a_east) / g),         |theta_d| <= lean_limit
 /// (a thrust that carries the weight, leaning so, accelerates it by a). Without an IMU blind_kp and blind_kd are the
-/// gains. A landing without a place brakes: a = -v - drag. By hand the pilot's roll and pitch are meant from the
-/// heading of take-off: phi_d = roll cos(yaw) + pitch sin(yaw), theta_d = pitch cos(yaw) - roll sin(yaw). Standing it
-/// levels: phi_d_dot = -phi_d / stand_time, and theta_d alike.
+/// gains, and a landing leans less near the ground: by (1 - touch.lean) less from touch.over above touch.low down to
+/// that. A landing without a place brakes: a = -v - drag. By hand the pilot's roll and pitch are meant from the heading
+/// of take-off: phi_d = roll cos(yaw) + pitch sin(yaw), theta_d = pitch cos(yaw) - roll sin(yaw). Standing it levels:
+/// phi_d_dot = -phi_d / stand_time, and theta_d alike.
 struct PositionControl {
   static constexpr std::string_view summary = "holds a place by leaning towards it, or leans as the pilot says";
   struct Param {
@@ -38,6 +54,7 @@ struct PositionControl {
     double stand_time = 0.3;
     double blind_kp = 0.6;
     double blind_kd = 1.5;
+    BlindTouch touch{};
     double max_trim = 1;
     static constexpr auto fields() {
       using P = Param;
@@ -49,7 +66,7 @@ struct PositionControl {
                       field<&P::lean_limit>("rad", "greatest roll and pitch demanded").in(0, std::numbers::pi / 2),
                       field<&P::stand_time>("s", "in which it levels where it stands").in(0.02, 100),
                       field<&P::blind_kp>("1/s^2", "kp when lasers show how it leans, slower than an IMU"),
-                      field<&P::blind_kd>("1/s", "kd then"),
+                      field<&P::blind_kd>("1/s", "kd then"), field<&P::touch>("", "how it touches the ground then"),
                       field<&P::max_trim>("m/s^2", "acceleration that the integral adds, at most"));
     }
   };

@@ -158,7 +158,7 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
     const bool had_sonar = !state.sonar.lost;
     const bool repeats = p.sonar_repeats > 0 && state.sonar.repeats >= p.sonar_repeats;
     if (believe(state.sonar, credible, p.patience) && !repeats) {
-      correct(state.z, z - state.zero_z, p.bandwidth);
+      correct(state.z, z - state.zero_z, is_blind ? p.unfelt.bandwidth : p.bandwidth);
       correct(state.z_slow, z - state.zero_z, p.drift.climb_bandwidth);
     }
     compare_climb(state, p, dt);

@@ -53,14 +53,18 @@ struct UnseenPlace {
   }
 };
 
-/// A turn that was neither felt nor foreseen, while the IMU was not heard for longer than a few lost packets.
-struct UnfeltTurn {
+/// Motion that nobody feels while the IMU is not heard, or lost.
+struct UnfeltMotion {
   double gap = 0.1;
   double rate = 2;
+  double bandwidth = 20;
 
   static constexpr auto fields() {
-    return describe(field<&UnfeltTurn::gap>("s", "without the IMU, from which on it may have turned so"),
-                    field<&UnfeltTurn::rate>("rad/s", "of that turn"));
+    return describe(
+        field<&UnfeltMotion::gap>(
+            "s", "without the IMU, more than a few lost packets, from which on it may have turned unforeseen"),
+        field<&UnfeltMotion::rate>("rad/s", "of that turn"),
+        field<&UnfeltMotion::bandwidth>("rad/s", "of the observer of altitude without an IMU, in gusts"));
   }
 };
 
@@ -140,7 +144,7 @@ struct JaviatorFilter {
     double sonar_jump = 0.08;
     double sonar_jump_rate = 0.1;
     double angle_jump = 0.1;
-    UnfeltTurn unfelt{};
+    UnfeltMotion unfelt{};
     double pressure_jump = 15;
     double pressure_noise = 6;
     double pascal_per_metre = 12;
@@ -170,7 +174,7 @@ struct JaviatorFilter {
           field<&P::sonar_jump>("m", "the same, of the sonar right after a credible range"),
           field<&P::sonar_jump_rate>("m/s", "at which that grows until the next one, up to that of any range"),
           field<&P::angle_jump>("rad", "the same, for roll and pitch"),
-          field<&P::unfelt>("", "turn while the IMU was not heard, by which angle_jump grows"),
+          field<&P::unfelt>("", "motion while the IMU is not heard; angle_jump grows by its turn"),
           field<&P::pressure_jump>("Pa", "from one reading to the next, which is not credible").in(0, 1000),
           field<&P::pressure_noise>(
               "", "times the RMS step on the ground that one in flight may have, up to 4 pressure_jump")
