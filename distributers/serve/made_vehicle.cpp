@@ -1,4 +1,4 @@
-#include "tools/commands/vehicle/made_vehicle.h"
+#include "distributers/serve/made_vehicle.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -10,7 +10,7 @@
 #include "graph/values/seed.h"
 #include "graph/values/type_of.h"
 
-namespace jarol::tools {
+namespace jarol {
 namespace {
 
 // "hull.mass" and a value as the mapping {hull: {mass: value}}.
@@ -27,8 +27,9 @@ Yaml nested(const std::string& path, Yaml value, const Location& where) {
 }
 
 // "z=4,theta=5deg" over the state where the vehicle stands.
-void read_initial(const std::string& text, vehicles::VehicleState& state, Problems& problems) {
-  const auto source = std::make_shared<Source>(Source{"--initial", text});
+void read_initial(const VehicleOptions& options, vehicles::VehicleState& state, Problems& problems) {
+  const std::string& text = options.initial;
+  const auto source = std::make_shared<Source>(Source{options.words.initial, text});
   const std::vector<Leaf> leaves = leaves_of(type_of<vehicles::VehicleState>());
   std::vector<std::string> names;
   for (const Leaf& leaf : leaves) names.push_back(leaf.path);
@@ -73,7 +74,7 @@ Value read_parameters(const VehicleOptions& options, const vehicles::VehicleClas
   for (const std::string& argument : options.set) {
     std::string path;
     Yaml value;
-    if (!read_set(argument, "--set", "sea.density=1025", path, value, problems)) continue;
+    if (!read_set(argument, options.words.set, "sea.density=1025", path, value, problems)) continue;
     const Location where{value.where.source, 1, 1};
     bind_fields(nested(path, std::move(value), where), *vehicle.parameters, parameters.data(),
                 "vehicle '" + vehicle.name + "'", "parameter", problems);
@@ -93,12 +94,12 @@ std::unique_ptr<vehicles::Vehicle> make_vehicle(const VehicleOptions& options,
   }
   if (!options.initial.empty()) {
     vehicles::VehicleState state = vehicle->state();
-    read_initial(options.initial, state, problems);
+    read_initial(options, state, problems);
     problems.throw_if_any();
     try {
       vehicle->place(state);
     } catch (const std::runtime_error& error) {
-      throw std::invalid_argument("--initial: " + std::string(error.what()));
+      throw std::invalid_argument(options.words.initial + ": " + error.what());
     }
   }
   problems.throw_if_any();
@@ -109,4 +110,4 @@ std::uint64_t own_seed(const VehicleOptions& options, const vehicles::VehicleCla
   return spread_seed(options.seed, vehicle_class.name);
 }
 
-}  // namespace jarol::tools
+}  // namespace jarol
