@@ -1,4 +1,4 @@
-#include "tools/commands/check/generate_graphs.h"
+#include "graph/analysis/random_graphs.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 #include "graph/values/digest.h"
 
-namespace jarol::tools {
+namespace jarol::analysis {
 namespace {
 
 // splitmix64: the same numbers on every machine.
@@ -100,4 +100,4 @@ std::string generate_graph(const Generation& g) {
   return text + (connections.empty() ? "" : "connections:\n" + connections);
 }
 
-}  // namespace jarol::tools
+}  // namespace jarol::analysis

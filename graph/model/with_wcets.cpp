@@ -1,15 +1,11 @@
-#include "tools/commands/check/measure.h"
+#include "graph/model/with_wcets.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
-#include "runtime/execute/executor.h"
-#include "runtime/machine/thread_time.h"
-#include "tools/commands/run/crash_line.h"
-#include "tools/report/fault_report.h"
+#include "graph/language/quantities.h"
 
-namespace jarol::tools {
+namespace jarol {
 namespace {
 
 // Where a line of the text begins.
@@ -61,35 +57,6 @@ Edit edit_of(const std::string& text, const TaskSpec& task, Duration wcet) {
 
 }  // namespace
 
-Measurement measure_tasks(Loaded& loaded, Duration end) {
-  if (thread_time_between_readings() == Duration{})
-    throw std::runtime_error(
-        "this machine's clock of a thread's own time is too coarse to measure tasks; state their 'wcet' yourself");
-  // a vehicle in lockstep is connected to; they do not finish, for what that keeps is for the next run
-  for (const auto& channels : loaded.channels) channels->begin();
-  Executor executor(*loaded.graph, std::move(loaded.channels),
-                    {.digest = false, .recorder = nullptr, .sharing = Sharing::measure});
-  const CrashLine crash_line(*loaded.graph);
-  executor.run_until(end);
-  if (executor.report().stopped)
-    throw std::invalid_argument("nothing was measured, as a fault stopped the run: " +
-                                to_text(executor.report().faults.front()));
-  Measurement measured{end, {}, fault_report(executor.report())};
-  for (std::size_t i = 0; i < loaded.graph->tasks.size(); ++i) {
-    const Histogram& took = executor.team()->took(i);
-    measured.tasks.push_back({took.count(), took.max(), took.percentile(0.999)});
-  }
-  return measured;
-}
-
-Duration with_margin(Duration max, double margin) {
-  auto ns = static_cast<std::int64_t>(std::ceil(static_cast<double>(max.count()) * (1 + margin)));
-  std::int64_t step = 1;
-  while (ns / step >= 1000) step *= 10;
-  ns = (ns + step - 1) / step * step;
-  return Duration(std::max<std::int64_t>(1, ns));
-}
-
 std::string with_wcets(const std::string& text, const GraphSpec& spec, const Graph& graph,
                        const std::vector<std::optional<Duration>>& wcets) {
   std::vector<Edit> edits;
@@ -114,4 +81,4 @@ std::string with_wcets(const std::string& text, const GraphSpec& spec, const Gra
   return edited;
 }
 
-}  // namespace jarol::tools
+}  // namespace jarol

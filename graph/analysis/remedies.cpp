@@ -1,4 +1,4 @@
-#include "tools/commands/check/remedies.h"
+#include "graph/analysis/remedies.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -7,13 +7,9 @@
 #include "graph/analysis/policies.h"
 #include "graph/language/tables.h"
 #include "graph/model/build.h"
-#include "tools/commands/check/check_report.h"
-#include "tools/commands/run/load_graph.h"
 
-namespace jarol::tools {
+namespace jarol::analysis {
 namespace {
-
-using analysis::Verdict;
 
 constexpr std::size_t max_remedies = 5, max_executable = 4;
 
@@ -23,13 +19,14 @@ std::string quoted(const std::string& key, const std::string& value) { return "'
 class Search {
  public:
   Search(const std::shared_ptr<const Source>& source, const Overrides& overrides, const Registry& registry,
-         const CheckReport& report, analysis::Budget& budget)
+         const GraphCheck& found, const Loads& loads, Budget& budget)
       : source_(source),
         overrides_(overrides),
         registry_(registry),
-        report_(report),
+        check_(found),
+        loads_(loads),
         budget_(budget),
-        overfull_(analysis::overfull_core(analysis::system_of(*report.graph))) {}
+        overfull_(overfull_core(system_of(*found.graph))) {}
 
   std::vector<Remedy> run() {
     std::vector<Kind> kinds{&Search::offsets,  &Search::deadlines, &Search::priorities, &Search::executable_policies,
@@ -50,7 +47,7 @@ class Search {
  private:
   using Kind = void (Search::*)();
 
-  const Graph& graph() const { return *report_.graph; }
+  const Graph& graph() const { return *check_.graph; }
 
   // Does the graph hold with these changes, chains included? Changes that make it invalid don't.
   bool holds(const std::vector<std::string>& set) {
@@ -61,20 +58,12 @@ class Search {
     Problems problems;
     const GraphSpec spec = load_spec(source_, changed, problems, registry_.grammars());
     const Graph graph = build_graph(spec, registry_, problems);
-    if (!problems.empty() || !analysis::open_deadline(graph).empty()) return false;
-    if (analysis::verdict_of(analysis::system_of(graph), budget_) != Verdict::schedulable) return false;
+    if (!problems.empty() || !open_deadline(graph).empty()) return false;
+    if (verdict_of(system_of(graph), budget_) != Verdict::schedulable) return false;
     const bool chains_hold = std::all_of(graph.chains.begin(), graph.chains.end(), [&](const Chain& chain) {
-      return analysis::broken_limits(chain, analysis::latency_of(graph, chain.path, budget_)).empty();
+      return broken_limits(chain, latency_of(graph, chain.path, budget_)).empty();
     });
-    return chains_hold && models(changed);
-  }
-
-  // Vehicles and links may have a word in it.
-  bool models(const Overrides& changed) const {
-    try {
-      load_graph(source_, changed);
-      return true;
-    } catch (const SpecError&) { return false; }
+    return chains_hold && loads_(changed);
   }
 
   // What it is tried with while pairs are looked for.
@@ -143,7 +132,7 @@ class Search {
 
   Remedy priorities_remedy() const {
     Remedy remedy{"priorities by deadline, without 'priority'", {}};
-    if (analysis::policy_of(graph().platform).urgency == Urgency::priority)
+    if (policy_of(graph().platform).urgency == Urgency::priority)
       for (const Task& task : graph().tasks)
         if (task.priority) remedy.set.push_back("tasks." + task.name + ".priority=null");
     return remedy;
@@ -151,7 +140,7 @@ class Search {
   void priorities() { add(priorities_remedy()); }
 
   Remedy policy_remedy(const Policy& policy) const {
-    if (policy == analysis::policy_of(graph().platform)) return {};
+    if (policy == policy_of(graph().platform)) return {};
     const std::string name(policy.name);
     return {quoted("policy", name) + (policy.executed ? "" : ", which 'run' does not execute"),
             {"platform.policy=" + name}};
@@ -179,7 +168,7 @@ class Search {
   }
 
   Remedy cores_remedy() const {
-    const auto min = static_cast<std::int64_t>(std::ceil(report_.result.utilisation - 1e-9));
+    const auto min = static_cast<std::int64_t>(std::ceil(check_.result.utilisation - 1e-9));
     const std::int64_t cores = std::max<std::int64_t>(graph().platform.cores + 1, min);
     if (cores > max_cores) return {};
     return {quoted("cores", std::to_string(cores)), {"platform.cores=" + std::to_string(cores)}};
@@ -188,8 +177,8 @@ class Search {
 
   bool is_in_broken_chain(const Task& task) const {
     const auto index = static_cast<std::size_t>(&task - graph().tasks.data());
-    return std::any_of(report_.chains.begin(), report_.chains.end(), [&](const ReportedChain& c) {
-      return !analysis::broken_limits(c.chain, c.latency).empty() &&
+    return std::any_of(check_.chains.begin(), check_.chains.end(), [&](const CheckedChain& c) {
+      return !broken_limits(c.chain, c.latency).empty() &&
              std::any_of(c.chain.path.begin(), c.chain.path.end(),
                          [&](const End& end) { return end.kind == End::Kind::task && end.index == index; });
     });
@@ -197,7 +186,7 @@ class Search {
 
   // A later end of a LET leaves more time, an earlier one shortens the chains that go through it.
   void lets() {
-    const bool late = report_.result.verdict != Verdict::schedulable;
+    const bool late = check_.result.verdict != Verdict::schedulable;
     for (const Task& task : graph().tasks) {
       if (!task.let || (!late && !is_in_broken_chain(task))) continue;
       for (int eighth = 1; eighth <= 8; ++eighth) {
@@ -248,8 +237,8 @@ class Search {
       if (add({quoted("period", period) + " of '" + task.name + "'", {"tasks." + task.name + ".period=" + period}}))
         return;
     }
-    for (const ReportedChain& c : report_.chains) {
-      if (analysis::broken_limits(c.chain, c.latency).empty()) continue;
+    for (const CheckedChain& c : check_.chains) {
+      if (broken_limits(c.chain, c.latency).empty()) continue;
       Remedy all{"half the periods of all of chain '" + c.chain.name + "'", {}};
       for (const End& end : c.chain.path) all.set.push_back(half_of(end));
       if (add(all)) return;
@@ -264,9 +253,9 @@ class Search {
   }
 
   void wcets() {
-    if (report_.result.verdict == Verdict::schedulable) return;
+    if (check_.result.verdict == Verdict::schedulable) return;
     std::size_t count = 0;
-    for (const analysis::WcetCut& cut : analysis::wcet_cuts(analysis::system_of(graph()), budget_)) {
+    for (const WcetCut& cut : wcet_cuts(system_of(graph()), budget_)) {
       if (found_.size() >= max_remedies || ++count > 2) return;
       const Task& task = graph().tasks[cut.task];
       const std::string wcet = duration_text(Duration(cut.wcet));
@@ -278,8 +267,9 @@ class Search {
   const std::shared_ptr<const Source>& source_;
   const Overrides& overrides_;
   const Registry& registry_;
-  const CheckReport& report_;
-  analysis::Budget& budget_;
+  const GraphCheck& check_;
+  const Loads& loads_;
+  Budget& budget_;
   const std::optional<std::size_t> overfull_;
   Remedy beside_;
   std::vector<Remedy> found_;
@@ -288,12 +278,13 @@ class Search {
 }  // namespace
 
 std::vector<Remedy> find_remedies(const std::shared_ptr<const Source>& source, const Overrides& overrides,
-                                  const Registry& registry, const CheckReport& report, analysis::Budget& budget) {
+                                  const Registry& registry, const GraphCheck& found, const Loads& loads,
+                                  Budget& budget) {
   const bool stated =
-      std::all_of(report.graph->tasks.begin(), report.graph->tasks.end(), [](const Task& t) { return t.wcet; });
-  if (!stated || report.graph->tasks.empty()) return {};
-  if (report.result.verdict == Verdict::schedulable && chains_hold(report) == true) return {};
-  return Search(source, overrides, registry, report, budget).run();
+      std::all_of(found.graph->tasks.begin(), found.graph->tasks.end(), [](const Task& t) { return t.wcet; });
+  if (!stated || found.graph->tasks.empty()) return {};
+  if (found.result.verdict == Verdict::schedulable && chains_hold(found) == true) return {};
+  return Search(source, overrides, registry, found, loads, budget).run();
 }
 
-}  // namespace jarol::tools
+}  // namespace jarol::analysis

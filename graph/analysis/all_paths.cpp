@@ -1,11 +1,11 @@
-#include "tools/commands/check/all_paths.h"
+#include "graph/analysis/all_paths.h"
 
 #include <cstdint>
 #include <set>
 #include <tuple>
 #include <utility>
 
-namespace jarol::tools {
+namespace jarol::analysis {
 namespace {
 
 // Depth first, on a stack of its own: a path may be as long as there are tasks.
@@ -100,4 +100,4 @@ class PathSearch {
 
 AllPaths all_paths(const Graph& graph) { return PathSearch(graph).run(); }
 
-}  // namespace jarol::tools
+}  // namespace jarol::analysis

@@ -1,11 +1,10 @@
-#include "tools/commands/check/all_paths.h"
+#include "graph/analysis/all_paths.h"
 
 #include <doctest/doctest.h>
 
 #include <string>
 
-#include "graph/model/build.h"
-#include "tools/library/built_in.h"
+#include "tests/graph/graph_of.h"
 
 namespace {
 using namespace jarol;
@@ -15,12 +14,7 @@ const std::string from_in_to_out =
     "  o: {type: double, direction: out}\n";
 
 Graph built_of(const std::string& tasks, const std::string& connections) {
-  Problems problems;
-  const auto source =
-      std::make_shared<Source>(Source{"t.yaml", from_in_to_out + "tasks:\n" + tasks + "connections:\n" + connections});
-  Graph graph = build_graph(load_spec(source, {}, problems), built_in().graph, problems);
-  problems.throw_if_any();
-  return graph;
+  return tests::graph_of(from_in_to_out + "tasks:\n" + tasks + "connections:\n" + connections);
 }
 
 std::vector<std::string> names_of(const Graph& graph, const std::vector<End>& path) {
@@ -31,12 +25,12 @@ std::vector<std::string> names_of(const Graph& graph, const std::vector<End>& pa
 }
 }  // namespace
 
-TEST_SUITE("tools/all_paths") {
+TEST_SUITE("graph/all_paths") {
   TEST_CASE("each path from an in to an out is found once, in the order of the connections, and no task twice in it") {
     const Graph graph =
         built_of("  a: {type: Sum, let: 10ms}\n  b: {type: Sum, let: 10ms}\n  c: {type: Relay}\n",
                  "  - a.out -> b.a\n  - a.out -> b.b\n  - i -> a.a\n  - b.out -> a.b\n  - i -> c.in\n  - b.out -> o\n");
-    const tools::AllPaths all = tools::all_paths(graph);
+    const analysis::AllPaths all = analysis::all_paths(graph);
     REQUIRE(all.paths.size() == 1);
     CHECK(names_of(graph, all.paths[0]) == std::vector<std::string>{"i", "a", "b", "o"});
     CHECK_FALSE(all.more);
@@ -50,7 +44,7 @@ TEST_SUITE("tools/all_paths") {
       tasks += "  " + name + ": {type: Relay}\n";
       connections += "  - " + name + ".out -> " + (k + 1 < count ? "t" + std::to_string(k + 1) + ".in" : "o") + "\n";
     }
-    const tools::AllPaths all = tools::all_paths(built_of(tasks, connections));
+    const analysis::AllPaths all = analysis::all_paths(built_of(tasks, connections));
     REQUIRE(all.paths.size() == 1);
     CHECK(all.paths[0].size() == count + 2);
     CHECK_FALSE(all.more);
@@ -67,7 +61,7 @@ TEST_SUITE("tools/all_paths") {
                        (k == 0 ? "a" : "y" + below) + ".out -> " + name + ".b\n";
       }
     const Graph graph = built_of(tasks, connections + "  - x" + std::to_string(rungs - 1) + ".out -> a.b\n");
-    const tools::AllPaths all = tools::all_paths(graph);
+    const analysis::AllPaths all = analysis::all_paths(graph);
     REQUIRE(all.paths.size() == 1);
     CHECK(names_of(graph, all.paths[0]) == std::vector<std::string>{"i", "a", "o"});
     CHECK_FALSE(all.more);

@@ -1,10 +1,10 @@
-// Random graphs for trying `jarol check`, the same for the same seed everywhere.
+// Random graphs to try the analysis with, the same for the same seed everywhere.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
-namespace jarol::tools {
+namespace jarol::analysis {
 
 struct Generation {
   std::string kind = "waters";  // or "uunifast"
@@ -20,4 +20,4 @@ struct Generation {
 /// Buttazzo 2005), periods evenly over the logarithm from 1 ms to 1 s.
 std::string generate_graph(const Generation& generation);
 
-}  // namespace jarol::tools
+}  // namespace jarol::analysis

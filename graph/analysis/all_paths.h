@@ -5,7 +5,7 @@
 
 #include "graph/model/graph.h"
 
-namespace jarol::tools {
+namespace jarol::analysis {
 
 /// Of paths beside the chains that the graph names, a report shows so many at most.
 inline constexpr std::size_t max_paths = 1000;
@@ -20,4 +20,4 @@ struct AllPaths {
 /// walk, so that the search ends after some millions of steps.
 AllPaths all_paths(const Graph& graph);
 
-}  // namespace jarol::tools
+}  // namespace jarol::analysis
