@@ -18,7 +18,7 @@ class WithTruth : public ExternalSystem {
 
   void reach(Duration instant) override {
     replayed_->reach(instant);
-    for (; next_.message() != nullptr && Duration(next_.message()->time) <= instant; next_.next()) decode();
+    for (; next_.message() != nullptr && next_.message()->time <= instant; next_.next()) decode();
   }
   bool take(std::size_t channel, void* value) override { return replayed_->take(channel, value); }
   void hand_over(std::size_t channel, const void* value) override { replayed_->hand_over(channel, value); }

@@ -60,7 +60,7 @@ struct Log {
 Log read(const std::string& path) {
   Log log;
   const Recording recording(path, [&](const mcap::Message& message, const ReadTopic&, const ChunkSpot&) {
-    log.records.push_back({message.channel, message.time, std::string(message.data)});
+    log.records.push_back({message.channel, message.time.count(), std::string(message.data)});
   });
   log.header = to_json(recording.header());
   for (const auto& [id, topic] : recording.topics()) {
@@ -79,7 +79,7 @@ void write(const Log& log, const std::string& path) {
   mcap::Chunk chunk;
   chunk.add(log.descriptions);
   for (const Record& record : log.records)
-    std::memcpy(chunk.add_message(record.channel, 0, record.time, record.bytes.size()), record.bytes.data(),
+    std::memcpy(chunk.add_message(record.channel, 0, Duration(record.time), record.bytes.size()), record.bytes.data(),
                 record.bytes.size());
   writer.write(chunk);
   writer.end({}, {});
