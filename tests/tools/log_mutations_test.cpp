@@ -158,7 +158,7 @@ std::string refusal_of(const std::string& path) {
   try {
     RecordedRun log(path);
     const std::vector<Miss> misses = log.begin(the_graph());
-    Executor executor(the_graph(), replayed_channels(the_graph(), log), {.misses = misses});
+    Executor executor(the_graph(), replayed_systems(the_graph(), log), {.misses = misses});
     executor.run_until(std::min<Duration>(log.covered(), 1500ms));
     log.require_all_taken();
   } catch (const LogError& error) { return error.what(); }
