@@ -27,11 +27,11 @@ class PublishedSystem : public ExternalSystem {
   bool take(std::size_t channel, void* value) override {
     Source& source = sources_[channel];
     const mcap::Message* message = source.cursor.message();
-    while (message != nullptr && Duration(message->time) < now_) {
+    while (message != nullptr && message->time < now_) {
       source.cursor.next();
       message = source.cursor.message();
     }
-    if (message == nullptr || Duration(message->time) != now_) return false;
+    if (message == nullptr || message->time != now_) return false;
     const std::span bytes(reinterpret_cast<const std::byte*>(message->data.data()), message->data.size());
     if (const std::string wrong = decode_cdr(*source.type, bytes, value); !wrong.empty())
       throw LogError("the recording has a value that " + wrong + "; it is none that jarol run has written");

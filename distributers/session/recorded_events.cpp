@@ -23,7 +23,7 @@ void each(const Recording& recording, std::string_view name, const std::function
         !wrong.empty())
       throw LogError("'" + recording.path() + "' has a message of '" + std::string(name) + "' that " + wrong +
                      "; it is no recording that this jarol has written");
-    take(Duration(cursor.message()->time), value);
+    take(cursor.message()->time, value);
   }
 }
 

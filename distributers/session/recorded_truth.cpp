@@ -10,18 +10,17 @@
 namespace jarol {
 namespace {
 
-class WithTruth : public ExternalSystem {
+// The true values of its vehicle, too.
+class RecordedSystem : public ReplayedSystem {
  public:
-  WithTruth(std::unique_ptr<ExternalSystem> replayed, const Recording& recording, const ReadTopic& topic,
-            const Type& type)
-      : replayed_(std::move(replayed)), topic_(topic), next_(recording, topic), value_(type) {}
+  RecordedSystem(const Graph& graph, std::size_t distributer, RecordedRun& run, const ReadTopic& topic,
+                 const Type& type)
+      : ReplayedSystem(graph, distributer, run), topic_(topic), next_(run.recording(), topic), value_(type) {}
 
   void reach(Duration instant) override {
-    replayed_->reach(instant);
-    for (; next_.message() != nullptr && Duration(next_.message()->time) <= instant; next_.next()) decode();
+    ReplayedSystem::reach(instant);
+    for (; next_.message() != nullptr && next_.message()->time <= instant; next_.next()) decode();
   }
-  bool take(std::size_t channel, void* value) override { return replayed_->take(channel, value); }
-  void hand_over(std::size_t channel, const void* value) override { replayed_->hand_over(channel, value); }
   const Type* true_type() const override { return value_.type(); }
   void copy_true_values(void* to) const override { copy_value(*value_.type(), to, value_.data()); }
 
@@ -33,10 +32,20 @@ class WithTruth : public ExternalSystem {
       fail_in_chunk(next_.spot(), "a value of '" + topic_.channel.topic + "' that " + wrong);
   }
 
-  std::unique_ptr<ExternalSystem> replayed_;
   const ReadTopic& topic_;
   MessageCursor next_;
   Value value_;
+};
+
+// The state of the one that was saved, too.
+class ResumedSystem : public ReplayedSystem {
+ public:
+  ResumedSystem(const Graph& graph, std::size_t distributer, TakenValues& values, std::unique_ptr<ExternalSystem> saved)
+      : ReplayedSystem(graph, distributer, values), saved_(std::move(saved)) {}
+  void serialize(Archive& archive) override { saved_->serialize(archive); }
+
+ private:
+  std::unique_ptr<ExternalSystem> saved_;
 };
 
 }  // namespace
@@ -47,17 +56,24 @@ std::vector<const Type*> types_of_truth(const Loaded& loaded) {
   return types;
 }
 
-std::vector<std::unique_ptr<ExternalSystem>> recorded_channels(const Loaded& loaded, RecordedRun& run) {
-  std::vector<std::unique_ptr<ExternalSystem>> channels = replayed_channels(*loaded.graph, run);
-  for (std::size_t i = 0; i < channels.size(); ++i) {
+std::vector<std::unique_ptr<ExternalSystem>> recorded_systems(const Loaded& loaded, RecordedRun& run) {
+  const Graph& graph = *loaded.graph;
+  std::vector<std::unique_ptr<ExternalSystem>> systems = replayed_systems(graph, run);
+  for (std::size_t i = 0; i < systems.size(); ++i) {
     const Type* const type = loaded.true_values[i].type;
     const ReadTopic* const topic =
-        type == nullptr ? nullptr
-                        : run.recording().find(std::string(topics::truth) + loaded.graph->distributers[i].name);
-    if (topic != nullptr)
-      channels[i] = std::make_unique<WithTruth>(std::move(channels[i]), run.recording(), *topic, *type);
+        type == nullptr ? nullptr : run.recording().find(std::string(topics::truth) + graph.distributers[i].name);
+    if (topic != nullptr) systems[i] = std::make_unique<RecordedSystem>(graph, i, run, *topic, *type);
   }
-  return channels;
+  return systems;
+}
+
+std::vector<std::unique_ptr<ExternalSystem>> resumed_systems(const Graph& graph, RecordedRun& run,
+                                                             std::vector<std::unique_ptr<ExternalSystem>> saved) {
+  std::vector<std::unique_ptr<ExternalSystem>> systems;
+  for (std::size_t i = 0; i < saved.size(); ++i)
+    systems.push_back(std::make_unique<ResumedSystem>(graph, i, run, std::move(saved[i])));
+  return systems;
 }
 
 void judge_no_other_truth(const Graph& graph, Evidence evidence, bool other_graph, std::vector<Verdict>& verdicts) {

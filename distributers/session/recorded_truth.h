@@ -11,9 +11,14 @@
 
 namespace jarol {
 
-/// External systems that give each `in` communicator what it took, as replayed_channels, and beside that the true
+/// External systems that give each `in` communicator what it took, as replayed_systems, and beside that the true
 /// values of the vehicles of which `loaded` knows them from the recording. Graph and recording outlive them.
-std::vector<std::unique_ptr<ExternalSystem>> recorded_channels(const Loaded& loaded, RecordedRun& run);
+std::vector<std::unique_ptr<ExternalSystem>> recorded_systems(const Loaded& loaded, RecordedRun& run);
+
+/// The same of a run that goes on from what was saved of it: the state of those that it had, one for one, is restored
+/// with all else, and nobody looks at it.
+std::vector<std::unique_ptr<ExternalSystem>> resumed_systems(const Graph& graph, RecordedRun& run,
+                                                             std::vector<std::unique_ptr<ExternalSystem>> saved);
 
 /// By distributer the type of the true values that `loaded` knows; null: none.
 std::vector<const Type*> types_of_truth(const Loaded& loaded);

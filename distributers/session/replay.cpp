@@ -1,32 +1,6 @@
 #include "distributers/session/replay.h"
 
-#include <utility>
-
 namespace jarol {
-namespace {
-
-class ReplayedFromState : public ExternalSystem {
- public:
-  ReplayedFromState(std::unique_ptr<ExternalSystem> system, std::unique_ptr<ExternalSystem> replayed)
-      : system_(std::move(system)), replayed_(std::move(replayed)) {}
-  void reach(Duration instant) override { replayed_->reach(instant); }
-  bool take(std::size_t channel, void* value) override { return replayed_->take(channel, value); }
-  void hand_over(std::size_t channel, const void* value) override { replayed_->hand_over(channel, value); }
-  void serialize(Archive& archive) override { system_->serialize(archive); }
-
- private:
-  std::unique_ptr<ExternalSystem> system_, replayed_;
-};
-
-}  // namespace
-
-std::vector<std::unique_ptr<ExternalSystem>> with_state_of(std::vector<std::unique_ptr<ExternalSystem>> systems,
-                                                           std::vector<std::unique_ptr<ExternalSystem>> replayed) {
-  std::vector<std::unique_ptr<ExternalSystem>> both;
-  for (std::size_t i = 0; i < systems.size(); ++i)
-    both.push_back(std::make_unique<ReplayedFromState>(std::move(systems[i]), std::move(replayed[i])));
-  return both;
-}
 
 void ReplayRun::cover() {
   const auto go_to = [&](Duration end) {

@@ -20,11 +20,6 @@ struct Comparison {
   bool interrupted = false;
 };
 
-/// Replayed channels of a run that goes on from what was saved of it: the state of its external systems is restored
-/// with all else, and nobody looks at it. One for one.
-std::vector<std::unique_ptr<ExternalSystem>> with_state_of(std::vector<std::unique_ptr<ExternalSystem>> systems,
-                                                           std::vector<std::unique_ptr<ExternalSystem>> replayed);
-
 /// To the end of what the recording covers, from digest to digest, so that it shows where the two diverge.
 class ReplayRun : public ExecutorRun {
  public:

@@ -37,9 +37,8 @@ Replayer::Replayer(RecordedRun& log, const distributers::Registries& known, Repl
   if (!options_.only.empty()) {
     take_only();
   } else {
-    std::vector<std::unique_ptr<ExternalSystem>> replayed = recorded_channels(whole_, log_);
-    whole_.channels =
-        begun_ > Duration{} ? with_state_of(std::move(whole_.channels), std::move(replayed)) : std::move(replayed);
+    whole_.channels = begun_ > Duration{} ? resumed_systems(*whole_.graph, log_, std::move(whole_.channels))
+                                          : recorded_systems(whole_, log_);
   }
   judges_ = begun_ == Duration{} || whole_.graph->expectations.empty();
   if (!judges_) whole_.graph->expectations.clear();

@@ -43,10 +43,10 @@ const void* Session::last_value(std::string_view name, const Type& type) const {
 }
 
 void Session::for_each_kept(std::string_view name, const Type& type,
-                            void (*visit)(void* to, Duration instant, const void* value), void* to) const {
+                            const std::function<void(Duration instant, const void* value)>& visit) const {
   const Place place = run().observed->find(name, type);
   for (const auto& [instant, value] : run().observed->series(place))
-    visit(to, instant, static_cast<const std::byte*>(value.data()) + place.offset);
+    visit(instant, static_cast<const std::byte*>(value.data()) + place.offset);
 }
 
 double Session::true_value(const std::string& field_of_distributer) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -114,12 +115,9 @@ class Session {
   template <class T>
   std::vector<Sample<T>> samples(std::string_view name) const {
     std::vector<Sample<T>> all;
-    for_each_kept(
-        name, type_of<T>(),
-        [](void* to, Duration instant, const void* value) {
-          static_cast<std::vector<Sample<T>>*>(to)->push_back({instant, *static_cast<const T*>(value)});
-        },
-        &all);
+    for_each_kept(name, type_of<T>(), [&](Duration instant, const void* value) {
+      all.push_back({instant, *static_cast<const T*>(value)});
+    });
     return all;
   }
 
@@ -135,7 +133,7 @@ class Session {
   void feed_value(std::string_view name, const Type& type, const void* value);
   const void* last_value(std::string_view name, const Type& type) const;
   void for_each_kept(std::string_view name, const Type& type,
-                     void (*visit)(void* to, Duration instant, const void* value), void* to) const;
+                     const std::function<void(Duration instant, const void* value)>& visit) const;
 
   class Run;
   Run& run() const;

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "graph/language/duration.h"
+
 namespace jarol::mcap {
 
 /// Bytes that are no MCAP, and what is wrong with them, as in "a record that ends before its text".
@@ -23,6 +25,8 @@ void put(std::string& to, T number) {
   static_assert(std::is_integral_v<T>);
   to.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
+
+inline void put(std::string& to, Duration time) { put(to, std::int64_t{time.count()}); }
 
 inline void put_text(std::string& to, std::string_view text) {
   put(to, static_cast<std::uint32_t>(text.size()));
@@ -51,6 +55,7 @@ class ByteCursor {
     std::memcpy(&value, bytes(sizeof value, "a number").data(), sizeof value);
     return value;
   }
+  Duration time() { return Duration(number<std::int64_t>()); }
   std::string_view text() { return bytes(number<std::uint32_t>(), "its text"); }
   std::string_view long_bytes() { return bytes(number<std::uint64_t>(), "its bytes"); }
   Texts texts() {

@@ -27,7 +27,7 @@ class Chunk {
   void add(std::string_view record) { std::memcpy(room_for(record.size()), record.data(), record.size()); }
 
   /// The caller writes its data there.
-  std::byte* add_message(std::uint16_t channel, std::uint32_t sequence, std::int64_t time, std::size_t size) {
+  std::byte* add_message(std::uint16_t channel, std::uint32_t sequence, Duration time, std::size_t size) {
     if (size_ - summed_ >= summed_at_once) sum();
     std::byte* const at = room_for(message_head + size);
     prefetch_for_write(memory_.get(), capacity_, size_);
@@ -37,8 +37,9 @@ class Chunk {
     std::memcpy(at + 1, &length, 8);
     std::memcpy(at + 9, &channel, 2);
     std::memcpy(at + 11, &sequence, 4);
-    std::memcpy(at + 15, &time, 8);
-    std::memcpy(at + 23, &time, 8);
+    const std::int64_t ns = time.count();
+    std::memcpy(at + 15, &ns, 8);
+    std::memcpy(at + 23, &ns, 8);
     if (messages_++ == 0) start_ = end_ = time;
     start_ = std::min(start_, time);
     end_ = std::max(end_, time);
@@ -55,8 +56,8 @@ class Chunk {
 
   std::string_view records() const { return {reinterpret_cast<const char*>(memory_.get()), size_}; }
   std::uint64_t messages() const { return messages_; }
-  std::int64_t start() const { return start_; }
-  std::int64_t end() const { return end_; }
+  Duration start() const { return start_; }
+  Duration end() const { return end_; }
 
   /// Its memory stays.
   void clear() {
@@ -64,7 +65,7 @@ class Chunk {
     crc_ = 0;
     sealed_ = false;
     messages_ = 0;
-    start_ = end_ = 0;
+    start_ = end_ = Duration{};
   }
 
  private:
@@ -100,7 +101,7 @@ class Chunk {
   std::uint32_t crc_ = 0;   // of these
   bool sealed_ = false;
   std::uint64_t messages_ = 0;
-  std::int64_t start_ = 0, end_ = 0;  // ns
+  Duration start_{}, end_{};
 };
 
 }  // namespace jarol::mcap

@@ -44,8 +44,8 @@ bool Reader::next(Record& record) {
 ReadChunk read_chunk(std::string_view content) {
   ByteCursor in(content);
   ReadChunk chunk;
-  chunk.start = in.number<std::int64_t>();
-  chunk.end = in.number<std::int64_t>();
+  chunk.start = in.time();
+  chunk.end = in.time();
   const auto size = in.number<std::uint64_t>();
   const auto crc = in.number<std::uint32_t>();
   const std::string_view compression = in.text();

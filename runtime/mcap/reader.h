@@ -37,7 +37,7 @@ class Reader {
 
 /// A chunk that was read.
 struct ReadChunk {
-  std::int64_t start = 0, end = 0;
+  Duration start{}, end{};
   std::string records;  // uncompressed
 };
 

@@ -58,7 +58,7 @@ Message read_message(std::string_view content) {
   Message message;
   message.channel = in.number<std::uint16_t>();
   message.sequence = in.number<std::uint32_t>();
-  message.time = in.number<std::int64_t>();
+  message.time = in.time();
   message.data = content.substr(fields);
   return message;
 }

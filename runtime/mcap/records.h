@@ -52,15 +52,16 @@ struct Channel {
 struct Message {
   std::uint16_t channel = 0;
   std::uint32_t sequence = 0;
-  std::int64_t time = 0;  // ns
+  Duration time{};
   std::string_view data;
 };
 
 /// Bytes of a message before its data, those of the record's head among them.
 inline constexpr std::size_t message_head = record_head + 2 + 4 + 8 + 8;
 
+/// As it stands in a file.
 struct IndexEntry {
-  std::int64_t time = 0;
+  std::int64_t time = 0;     // ns
   std::uint64_t offset = 0;  // within the records of the chunk
 };
 
@@ -72,7 +73,7 @@ struct Attachment {
 
 /// Of a chunk that lies in a file.
 struct ChunkPlace {
-  std::int64_t start = 0, end = 0;                                 // ns: of its first message and its last one
+  Duration start{}, end{};                                         // of its first message and its last one
   std::uint64_t offset = 0, length = 0;                            // of its record in the file
   std::vector<std::pair<std::uint16_t, std::uint64_t>> indexes{};  // channel and offset of its message index
   std::uint64_t index_length = 0;                                  // of all of these

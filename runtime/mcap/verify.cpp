@@ -62,12 +62,12 @@ class Verifier {
   void look_at_chunk(const Record& record) {
     require_all_indexed();
     const ReadChunk chunk = read_chunk(record.content);
-    std::int64_t start = 0, end = 0;
+    Duration start{}, end{};
     bool any = false;
     for_each_record(chunk.records, [&](Opcode opcode, std::string_view content, std::size_t offset) {
       if (opcode != Opcode::message) return;
       const Message message = read_message(content);
-      entries_[message.channel].push_back({message.time, offset});
+      entries_[message.channel].push_back({message.time.count(), offset});
       start = any ? std::min(start, message.time) : message.time;
       end = any ? std::max(end, message.time) : message.time;
       any = true;
@@ -111,7 +111,7 @@ class Verifier {
   void look_at_chunk_index(const Record& record) {
     ByteCursor in(record.content);
     const std::size_t i = indexed_++;
-    const auto start = in.number<std::int64_t>(), end = in.number<std::int64_t>();
+    const Duration start = in.time(), end = in.time();
     const auto offset = in.number<std::uint64_t>(), length = in.number<std::uint64_t>();
     if (i >= chunks_.size() || chunks_[i].start != start || chunks_[i].end != end || chunks_[i].offset != offset ||
         chunks_[i].length != length)

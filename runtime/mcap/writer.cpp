@@ -15,7 +15,7 @@ void put_head(std::string& to, Opcode opcode, std::uint64_t length) {
 
 std::string index_record(const ChunkPlace& chunk) {
   std::string content, indexes;
-  for (const std::int64_t time : {chunk.start, chunk.end}) put(content, time);
+  for (const Duration time : {chunk.start, chunk.end}) put(content, time);
   put(content, chunk.offset);
   put(content, chunk.length);
   for (const auto& [channel, offset] : chunk.indexes) {

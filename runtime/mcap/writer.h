@@ -41,7 +41,7 @@ class Writer {
   std::string waiting_;    // for the next flush
   std::uint32_t crc_ = 0;  // of all up to here
   std::uint32_t chunks_ = 0;
-  std::int64_t start_ = 0, end_ = 0;   // ns: of the first message of all and the last one
+  Duration start_{}, end_{};           // of the first message of all and the last one
   std::vector<std::uint64_t> counts_;  // messages, per channel
   std::string chunk_indexes_;          // records, as a long recording has many
   std::string attachment_indexes_;     // records

@@ -38,7 +38,7 @@ bool RecordedInstants::next() {
   bool any = false;
   for (const MessageCursor& cursor : cursors_) {
     if (cursor.message() == nullptr) continue;
-    const Duration instant(cursor.message()->time);
+    const Duration instant = cursor.message()->time;
     instant_ = any ? std::min(instant_, instant) : instant;
     any = true;
   }

@@ -6,24 +6,12 @@
 #include "runtime/record/recording_format.h"
 
 namespace jarol {
-namespace {
 
-class ReplayedSystem : public ExternalSystem {
- public:
-  ReplayedSystem(TakenValues& values, std::vector<std::size_t> communicators)
-      : values_(values), communicators_(std::move(communicators)) {}
-
-  void reach(Duration instant) override { now_ = instant; }
-  bool take(std::size_t channel, void* value) override { return values_.take(now_, communicators_[channel], value); }
-  void hand_over(std::size_t, const void*) override {}
-
- private:
-  TakenValues& values_;
-  std::vector<std::size_t> communicators_;  // per channel
-  Duration now_{};
-};
-
-}  // namespace
+ReplayedSystem::ReplayedSystem(const Graph& graph, std::size_t distributer, TakenValues& values)
+    : values_(values), communicators_(graph.distributers[distributer].distributer_class->channels.size()) {
+  for (std::size_t i = 0; i < graph.communicators.size(); ++i)
+    if (graph.communicators[i].distributer == distributer) communicators_[graph.communicators[i].channel] = i;
+}
 
 std::vector<std::size_t> logged_inputs(const Graph& graph) {
   std::vector<std::size_t> inputs;
@@ -55,14 +43,10 @@ const Miss* MissedActivations::find(std::size_t task, std::int64_t activation) {
   return next < misses.size() && misses[next].activation == activation ? &misses[next] : nullptr;
 }
 
-std::vector<std::unique_ptr<ExternalSystem>> replayed_channels(const Graph& graph, TakenValues& values) {
+std::vector<std::unique_ptr<ExternalSystem>> replayed_systems(const Graph& graph, TakenValues& values) {
   std::vector<std::unique_ptr<ExternalSystem>> all;
-  for (std::size_t d = 0; d < graph.distributers.size(); ++d) {
-    std::vector<std::size_t> communicators(graph.distributers[d].distributer_class->channels.size());
-    for (std::size_t i = 0; i < graph.communicators.size(); ++i)
-      if (graph.communicators[i].distributer == d) communicators[graph.communicators[i].channel] = i;
-    all.push_back(std::make_unique<ReplayedSystem>(values, std::move(communicators)));
-  }
+  for (std::size_t d = 0; d < graph.distributers.size(); ++d)
+    all.push_back(std::make_unique<ReplayedSystem>(graph, d, values));
   return all;
 }
 

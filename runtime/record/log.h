@@ -76,8 +76,23 @@ class TakenValues {
   virtual bool take(Duration instant, std::size_t communicator, void* value) = 0;
 };
 
-/// External systems that give each `in` communicator what it took; one per distributer of the graph. `values` and
-/// `graph` outlive them.
-std::vector<std::unique_ptr<ExternalSystem>> replayed_channels(const Graph& graph, TakenValues& values);
+/// Gives the `in` communicators of a distributer what they took.
+class ReplayedSystem : public ExternalSystem {
+ public:
+  /// The values outlive it.
+  ReplayedSystem(const Graph& graph, std::size_t distributer, TakenValues& values);
+
+  void reach(Duration instant) override { now_ = instant; }
+  bool take(std::size_t channel, void* value) override { return values_.take(now_, communicators_[channel], value); }
+  void hand_over(std::size_t, const void*) override {}
+
+ private:
+  TakenValues& values_;
+  std::vector<std::size_t> communicators_;  // per channel
+  Duration now_{};
+};
+
+/// One per distributer of the graph. `values` outlive them.
+std::vector<std::unique_ptr<ExternalSystem>> replayed_systems(const Graph& graph, TakenValues& values);
 
 }  // namespace jarol

@@ -15,7 +15,7 @@ MessageCursor::MessageCursor(const Recording& recording, const ReadTopic& topic,
     : MessageCursor(recording, only(topic), from) {}
 
 MessageCursor::MessageCursor(const Recording& recording, std::vector<bool> wanted, Duration from)
-    : recording_(recording), reader_(recording.path()), wanted_(std::move(wanted)), from_(from.count()) {
+    : recording_(recording), reader_(recording.path()), wanted_(std::move(wanted)), from_(from) {
   wanted_.resize(65536);
   for (const ReadPlace& chunk : recording.chunks())
     if (chunk.end >= from_ && wants(chunk)) chunks_.push_back(chunk);

@@ -33,7 +33,7 @@ class MessageCursor {
   std::size_t part_ = 0;
   std::vector<ReadPlace> chunks_;  // that may hold some
   std::vector<bool> wanted_;
-  std::int64_t from_;
+  Duration from_;
   std::size_t at_ = 0;     // the chunk that follows
   std::string records_;    // of the chunk that is open
   std::size_t place_ = 0;  // in these

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t max_kept = 10'000'000;  // misses, and running digests
 
-bool is_time(std::int64_t ns) { return ns >= 0 && Duration(ns) <= longest_duration; }
+bool is_time(Duration instant) { return instant >= Duration{} && instant <= longest_duration; }
+bool is_time(std::int64_t ns) { return is_time(Duration(ns)); }
 
 std::span<const std::byte> bytes_of(const mcap::Message& message) {
   return {reinterpret_cast<const std::byte*>(message.data.data()), message.data.size()};
@@ -118,9 +119,9 @@ void RecordedRun::keep(const mcap::Message& message, const ReadTopic& topic, con
   } else if (name == topics::gaps) {
     gaps_.push_back(read(Gap{}));
   } else if (name == topics::checkpoints) {
-    if (!is_time(message.time) || (!saved_.empty() && Duration(message.time) <= saved_.back()))
+    if (!is_time(message.time) || (!saved_.empty() && message.time <= saved_.back()))
       fail_in_chunk(spot, "a checkpoint that is not after the one before it");
-    saved_.emplace_back(message.time);
+    saved_.push_back(message.time);
   }
   if (misses_.size() > max_kept || digests_.size() > max_kept || gaps_.size() > max_kept)
     fail("has more than " + std::to_string(max_kept) + " misses, digests or gaps; record a shorter run");
@@ -143,7 +144,7 @@ std::string RecordedRun::saved_at(Duration instant) const {
   std::optional<MessageCursor> cursor;
   if (topic != nullptr) cursor.emplace(*recording_, *topic, instant);
   SavedState state;
-  if (!cursor || cursor->message() == nullptr || Duration(cursor->message()->time) != instant)
+  if (!cursor || cursor->message() == nullptr || cursor->message()->time != instant)
     fail("has no checkpoint at " + seconds_text(instant) + " s");
   if (const std::string wrong = decode_cdr(type_of<SavedState>(), bytes_of(*cursor->message()), &state); !wrong.empty())
     fail_in_chunk(cursor->spot(), "a checkpoint that " + wrong);
@@ -193,8 +194,7 @@ std::vector<Miss> RecordedRun::begin(const Graph& graph, Duration from) {
 bool RecordedRun::take(Duration instant, std::size_t communicator, void* value) {
   require_not_before(instant);
   const mcap::Message* const message = next_->message();
-  if (message == nullptr || Duration(message->time) != instant || communicators_[message->channel] != communicator)
-    return false;
+  if (message == nullptr || message->time != instant || communicators_[message->channel] != communicator) return false;
   const Type& type = *graph_->communicators[communicator].type;
   if (const std::string wrong = decode_cdr(type, bytes_of(*message), value); !wrong.empty())
     fail_in_chunk(next_->spot(), "a value of '" + name_of_next() + "' that " + wrong);
@@ -210,8 +210,8 @@ const std::string& RecordedRun::name_of_next() const {
 
 void RecordedRun::require_not_before(Duration instant) const {
   const mcap::Message* const message = next_->message();
-  if (message == nullptr || Duration(message->time) >= instant) return;
-  fail_for_graph("has a value of '" + name_of_next() + "' at " + seconds_text(Duration(message->time)) +
+  if (message == nullptr || message->time >= instant) return;
+  fail_for_graph("has a value of '" + name_of_next() + "' at " + seconds_text(message->time) +
                  " s, when it takes none in");
 }
 

@@ -68,8 +68,8 @@ class RecordedRun : public TakenValues {
   std::string ended_by_;
   std::optional<Duration> rest_begun_;
   std::uint64_t values_ = 0;
-  std::int64_t last_value_ = 0;  // ns; its instant
-  std::vector<Miss> misses_;     // by the header's tasks
+  Duration last_value_{};     // its instant
+  std::vector<Miss> misses_;  // by the header's tasks
   std::vector<RunningDigest> digests_;
   std::vector<Gap> gaps_;
   std::vector<Duration> saved_;

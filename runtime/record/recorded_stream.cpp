@@ -55,7 +55,7 @@ void RecordedStream::append(Lane& lane, Duration instant, const void* value) {
 void RecordedStream::put(Lane& lane, Duration instant, const void* value, std::size_t size) {
   mcap::Chunk& chunk = chunks_.filling();
   if (!std::exchange(are_described_, true)) chunk.add(descriptions_);
-  lane.encoder.encode(value, chunk.add_message(lane.channel, lane.next++, instant.count(), size));
+  lane.encoder.encode(value, chunk.add_message(lane.channel, lane.next++, instant, size));
 }
 
 void RecordedStream::take_event(const RunEvent& event) {
@@ -141,7 +141,7 @@ bool RecordedStream::make_room(bool last) {
 
 void RecordedStream::drop_chunk(std::uint64_t values) {
   mcap::Chunk& chunk = chunks_.filling();
-  if (values > 0) widen(gap_, {chunk.start(), chunk.end(), values});
+  if (values > 0) widen(gap_, {chunk.start().count(), chunk.end().count(), values});
   chunk.clear();
   if (is_first_) are_described_ = false;  // they were in it
 }
@@ -158,7 +158,7 @@ bool RecordedStream::carry(bool all) {
   for (ChunkQueue::ChunkPointer* full = chunks_.full(); full != nullptr; full = chunks_.full()) {
     if (pressure_ == Pressure::drops && !all && !queue_.has_room_for((*full)->records().size())) return any;
     const std::size_t bytes = (*full)->records().size();
-    const Gap range{(*full)->start(), (*full)->end(), (*full)->messages()};
+    const Gap range{(*full)->start().count(), (*full)->end().count(), (*full)->messages()};
     if (failure_ == nullptr) push(*full);
     if (failure_ != nullptr) {
       widen(lost_, range);

@@ -162,9 +162,9 @@ bool Recording::read_summary(mcap::Reader& reader) {
           topic->second.messages = counts.number<std::uint64_t>();
         }
       } else if (opcode == mcap::Opcode::chunk_index) {
-        ReadPlace place{parts_.size() - 1, 0, 0, 0, 65535, 0};
-        place.start = in.number<std::int64_t>();
-        place.end = in.number<std::int64_t>();
+        ReadPlace place{parts_.size() - 1, 0, {}, {}, 65535, 0};
+        place.start = in.time();
+        place.end = in.time();
         place.offset = in.number<std::uint64_t>();
         in.number<std::uint64_t>();
         for (mcap::ByteCursor indexes(in.text()); !indexes.at_end(); indexes.number<std::uint64_t>()) {

@@ -26,7 +26,7 @@ struct ReadTopic {
 struct ReadPlace {
   std::size_t part = 0;  // index in Recording::parts
   std::uint64_t offset = 0;
-  std::int64_t start = 0, end = 0;  // ns
+  Duration start{}, end{};
   std::uint16_t min_channel = 0, max_channel = 0;
 };
 

@@ -36,10 +36,21 @@ class ReleaseQueue {
   }
 
   /// Before the first take. Adds a group, numbered in the order of adding: due at `first`, `first + period`, ...
-  void add(Duration first, Duration period) { add(first.count(), period.count()); }
+  void add(Duration first, Duration period) {
+    assert(!tried_);
+    next_ = std::min(next_, first);
+    if (many_.empty() && times_.size() < few) {
+      due_.push_back(0);
+      times_.push_back({first, period});
+      return;
+    }
+    if (many_.empty())
+      for (const Time& time : times_) many_.add(time.next, time.period);
+    many_.add(first, period);
+  }
 
   /// The next instant at which any group is due; the greatest there is if there is no group.
-  Duration next() const { return Duration(next_); }
+  Duration next() const { return next_; }
 
   /// The groups due at next(), least number first, until the next call; next() then is the instant after it.
   std::span<const std::uint32_t> take() {
@@ -58,30 +69,15 @@ class ReleaseQueue {
   // up to here a look at all is faster
   static constexpr std::size_t few = 32;
 
-  // in ns from here on
-  void add(std::int64_t first, std::int64_t period) {
-    assert(!tried_);
-    next_ = std::min(next_, first);
-    if (many_.empty() && times_.size() < few) {
-      due_.push_back(0);
-      times_.push_back({first, period});
-      return;
-    }
-    if (many_.empty())
-      for (const Time& time : times_) many_.add(time.next, time.period);
-    many_.add(first, period);
-  }
-
   struct Time {
-    std::int64_t next;
-    std::int64_t period;
+    Duration next;
+    Duration period;
   };
 
   std::span<const std::uint32_t> take_by_timetable() {
-    std::int64_t to_next = 0;
+    Duration to_next{};
     const auto due = timetable_.take(to_next);
-    // an instant beyond what 64 bits hold, 292 years, is never reached
-    if (__builtin_add_overflow(next_, to_next, &next_)) next_ = CalendarQueue::never;
+    next_ = CalendarQueue::later(next_, to_next);
     return due;
   }
 
@@ -90,7 +86,7 @@ class ReleaseQueue {
     for (const Time& time : times_)
       if (time.next - next_ >= time.period) return;
     tried_ = true;
-    const std::int64_t begin = next_;
+    const Duration begin = next_;
     begins_ = times_;
     const auto repeats = [&] {
       for (std::size_t i = 0; i < times_.size(); ++i)
@@ -98,7 +94,7 @@ class ReleaseQueue {
       return true;
     };
     do {
-      const std::int64_t now = next_;
+      const Duration now = next_;
       const auto due = take_by_scan();
       if (!timetable_.add(next_ - now, due)) break;
     } while (!repeats());
@@ -108,9 +104,9 @@ class ReleaseQueue {
 
   // without branches on what is due, which no processor could predict
   std::span<const std::uint32_t> take_by_scan() {
-    constexpr auto never = static_cast<std::uint64_t>(CalendarQueue::never);
-    const std::int64_t now = next_;
-    std::int64_t min = CalendarQueue::never;
+    constexpr auto never = static_cast<std::uint64_t>(CalendarQueue::never.count());
+    const Duration now = next_;
+    Duration min = CalendarQueue::never;
     std::size_t count = 0;
     const auto groups = static_cast<std::uint32_t>(times_.size());
     for (std::uint32_t group = 0; group < groups; ++group) {
@@ -119,8 +115,9 @@ class ReleaseQueue {
       due_[count] = group;
       count += is_due ? 1 : 0;
       // an instant beyond what 64 bits hold, 292 years, is never reached
-      const auto later = static_cast<std::uint64_t>(time.next) + (is_due ? static_cast<std::uint64_t>(time.period) : 0);
-      time.next = static_cast<std::int64_t>(std::min(later, never));
+      const auto later = static_cast<std::uint64_t>(time.next.count()) +
+                         (is_due ? static_cast<std::uint64_t>(time.period.count()) : 0);
+      time.next = Duration(static_cast<std::int64_t>(std::min(later, never)));
       min = std::min(min, time.next);
     }
     next_ = min;
@@ -133,7 +130,7 @@ class ReleaseQueue {
   Timetable timetable_;             // of few whose pattern soon repeats
   bool tried_ = false;              // it was made, or there is no room for it
   CalendarQueue many_;              // of more: all
-  std::int64_t next_ = CalendarQueue::never;
+  Duration next_ = CalendarQueue::never;
 };
 
 }  // namespace jarol

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "graph/language/duration.h"
+
 namespace jarol {
 
 class Timetable {
@@ -22,9 +24,9 @@ class Timetable {
 
   bool empty() const { return instants_.empty(); }
 
-  /// Writes an instant down, the time to the next one in ns, and who is due at it; false: there is no room for it, and
+  /// Writes an instant down, the time to the next one, and who is due at it; false: there is no room for it, and
   /// the timetable is empty.
-  bool add(std::int64_t to_next, std::span<const std::uint32_t> due) {
+  bool add(Duration to_next, std::span<const std::uint32_t> due) {
     if (instants_.size() == max_instants || due_.size() + due.size() > max_due) {
       clear();
       return false;
@@ -35,8 +37,8 @@ class Timetable {
   }
 
   /// Who is due at its next instant; after the last one the first comes again. `to_next`: from that instant to the one
-  /// after it, ns.
-  std::span<const std::uint32_t> take(std::int64_t& to_next) {
+  /// after it.
+  std::span<const std::uint32_t> take(Duration& to_next) {
     const Instant& instant = instants_[at_];
     if (++at_ == instants_.size()) at_ = 0;
     to_next = instant.to_next;
@@ -47,7 +49,7 @@ class Timetable {
   static constexpr std::size_t max_instants = 128, max_due = 1024;
 
   struct Instant {
-    std::int64_t to_next;
+    Duration to_next;
     std::uint32_t first, count;  // in due_
   };
 

@@ -72,3 +72,24 @@ TEST_CASE("what a run can't do is refused before it begins") {
   CHECK_THROWS_WITH_AS(jarol::Runner(jarol::load(SPECS "/exolauv.yaml"), {.end = 1s, .real_clock = true, .workers = 2}),
                        ".workers belongs to the virtual clock; the real one goes by 'platform'", jarol::NotExecutable);
 }
+
+TEST_CASE("what would have been with another gain from 10 s on is run beside the run, and parts from it") {
+  jarol::Loaded loaded = jarol::load(SPECS "/exolauv.yaml");
+  jarol::WhatIfs what_ifs(
+      {{.at = 10s, .set = {"tasks.depth.parameters.kp=0.2"}}},
+      {.load = [](const jarol::Overrides& with) { return jarol::load(SPECS "/exolauv.yaml", with); }, .end = 12s},
+      *loaded.graph);
+  jarol::RunOptions options{.end = 12s};
+  what_ifs.add_to(options.sinks);
+  what_ifs.add_to(options.stops);
+  jarol::Runner runner(std::move(loaded), options);
+  runner.begin();
+  runner.attend();
+  what_ifs.run(runner.joined().sinks());
+  const auto digest = runner.finish().report.digest;
+  REQUIRE(what_ifs.outcomes().size() == 1);
+  CHECK(what_ifs.outcomes()[0].column.digest != digest);
+  REQUIRE(what_ifs.outcomes()[0].differences.first());
+  CHECK(what_ifs.outcomes()[0].differences.first()->output == "depth.moment");
+  CHECK(what_ifs.outcomes()[0].differences.first()->instant == 10s);
+}

@@ -41,7 +41,7 @@ Changed change(const std::string& from, const std::string& to, const Place& plac
     std::memcpy(&changed.before, number, sizeof(double));
     data[place.byte] ^= std::byte{1} << place.bit;
     std::memcpy(&changed.after, number, sizeof(double));
-    changed.instant = message.time;
+    changed.instant = message.time.count();
   });
   return changed;
 }

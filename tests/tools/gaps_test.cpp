@@ -11,6 +11,7 @@
 #include "tests/tools/run_command.h"
 
 namespace {
+using namespace std::chrono_literals;
 using namespace jarol;
 using command::has;
 using command::TemporaryFolder;
@@ -23,13 +24,13 @@ void drop(const std::string& from, const std::string& to, const std::string& out
   const std::uint16_t gaps = recording.find(std::string(topics::gaps))->channel.id;
   Gap gap;
   command::rewrite_recording(from, to, [&](const mcap::Message& message, mcap::Chunk& chunk) {
-    if (message.channel != channel || message.time < 300'000'000 || message.time > 500'000'000)
+    if (message.channel != channel || message.time < 300ms || message.time > 500ms)
       return void(command::copy_message(message, chunk));
-    if (gap.values++ == 0) gap.from = message.time;
-    gap.to = message.time;
-    if (message.time < 500'000'000) return;
+    if (gap.values++ == 0) gap.from = message.time.count();
+    gap.to = message.time.count();
+    if (message.time < 500ms) return;
     const CdrEncoder encoder(type_of<Gap>());
-    encoder.encode(&gap, chunk.add_message(gaps, 0, gap.to, encoder.size(&gap)));
+    encoder.encode(&gap, chunk.add_message(gaps, 0, message.time, encoder.size(&gap)));
   });
 }
 }  // namespace

@@ -60,7 +60,7 @@ struct Log {
 Log read(const std::string& path) {
   Log log;
   const Recording recording(path, [&](const mcap::Message& message, const ReadTopic&, const ChunkSpot&) {
-    log.records.push_back({message.channel, message.time, std::string(message.data)});
+    log.records.push_back({message.channel, message.time.count(), std::string(message.data)});
   });
   log.header = to_json(recording.header());
   for (const auto& [id, topic] : recording.topics()) {
@@ -79,7 +79,7 @@ void write(const Log& log, const std::string& path) {
   mcap::Chunk chunk;
   chunk.add(log.descriptions);
   for (const Record& record : log.records)
-    std::memcpy(chunk.add_message(record.channel, 0, record.time, record.bytes.size()), record.bytes.data(),
+    std::memcpy(chunk.add_message(record.channel, 0, Duration(record.time), record.bytes.size()), record.bytes.data(),
                 record.bytes.size());
   writer.write(chunk);
   writer.end({}, {});
@@ -158,7 +158,7 @@ std::string refusal_of(const std::string& path) {
   try {
     RecordedRun log(path);
     const std::vector<Miss> misses = log.begin(the_graph());
-    Executor executor(the_graph(), replayed_channels(the_graph(), log), {.misses = misses});
+    Executor executor(the_graph(), replayed_systems(the_graph(), log), {.misses = misses});
     executor.run_until(std::min<Duration>(log.covered(), 1500ms));
     log.require_all_taken();
   } catch (const LogError& error) { return error.what(); }

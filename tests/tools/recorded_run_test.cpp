@@ -51,7 +51,7 @@ std::size_t first_chunk(const std::string& path) { return Recording(path).chunks
 
 Report replay(RecordedRun& log, const Graph& graph) {
   const std::vector<Miss> misses = log.begin(graph);
-  Executor executor(graph, replayed_channels(graph, log), {.misses = misses});
+  Executor executor(graph, replayed_systems(graph, log), {.misses = misses});
   executor.run_until(log.covered());
   log.require_all_taken();
   return executor.report();

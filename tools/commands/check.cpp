@@ -11,12 +11,13 @@
 #include <stdexcept>
 #include <thread>
 
+#include "distributers/session/checked_graph.h"
+#include "graph/analysis/random_graphs.h"
 #include "graph/language/key.h"
 #include "graph/language/quantities.h"
 #include "runtime/files/atomic_file.h"
-#include "tools/commands/check/check_graph.h"
+#include "tools/commands/check/check_report.h"
 #include "tools/commands/check/gantt.h"
-#include "tools/commands/check/generate_graphs.h"
 #include "tools/commands/check/measure_file.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/run/apart.h"
@@ -33,13 +34,13 @@ namespace {
 
 using analysis::Verdict;
 
-struct CheckOptions {
+struct CheckCommandOptions {
   std::vector<std::string> files;
   Overrides overrides;
   std::string generate;
   std::string folder;
   int count = 1;
-  Generation generation;
+  analysis::Generation generation;
   std::string svg;
   std::string duration;
   MeasureOptions measuring;
@@ -64,7 +65,7 @@ int worst(int a, int b) {
 }
 
 // Options that would have no effect.
-void require_effect(const Command& command, const CheckOptions& options) {
+void require_effect(const Command& command, const CheckCommandOptions& options) {
   if (!options.generate.empty()) {
     command.refuse({"FILE", "--set", "--profile", "--sensitivity", "--chains", "--measure", "--write", "--lower",
                     "--for", "--margin", "--svg", "--json"},
@@ -97,7 +98,7 @@ struct Checked {
 };
 
 // What was asked for and is not there.
-void note_what_lacks(const CheckReport& report, const CheckOptions& options, std::vector<std::string>& notes) {
+void note_what_lacks(const CheckReport& report, const CheckCommandOptions& options, std::vector<std::string>& notes) {
   if (!options.svg.empty() && gantt_svg(*report.graph, report.result).empty())
     notes.push_back("no picture in '" + options.svg + "', as it needs a 'wcet' of every task");
   if (options.sensitivity && !report.sensitivity)
@@ -111,21 +112,23 @@ void note_what_lacks(const CheckReport& report, const CheckOptions& options, std
                     ", there may be more: to follow every way would take too long");
 }
 
-void check_file(const std::string& file, const CheckOptions& options, Checked& checked) {
+void check_file(const std::string& file, const CheckCommandOptions& options, Checked& checked) {
   std::optional<Measurement> measured;
   if (options.measuring.measure || options.measuring.write)
     measured = measure_file(file, options.overrides, options.measuring);
   // what is written is judged as it was written
   const Overrides overrides = options.measuring.write ? without_changes(options.overrides) : options.overrides;
-  const Loaded loaded = load_graph(file, overrides);
-  CheckReport report = check_graph(file, *loaded.graph, options.sensitivity, options.all_chains);
-  analysis::Budget budget;
-  if (!options.sensitivity) budget.left = 30'000'000;
-  report.remedies = find_remedies(read_source(file), overrides, loaded.known->graph, report, budget);
+  const CheckedGraph graph = check_graph(read_source(file), built_in(),
+                                         {.overrides = overrides,
+                                          .sensitivity = options.sensitivity,
+                                          .all_chains = options.all_chains,
+                                          .note = note_once});
+  CheckReport report(file, graph.found);
+  report.remedies = graph.remedies;
   // what was written holds by now
   if (!options.measuring.write) report.measured = std::move(measured);
   note_what_lacks(report, options, checked.notes);
-  if (const std::string drawn = gantt_svg(*loaded.graph, report.result); !options.svg.empty() && !drawn.empty()) {
+  if (const std::string drawn = gantt_svg(*report.graph, report.result); !options.svg.empty() && !drawn.empty()) {
     if (options.svg == "-") {
       checked.picture = drawn;
     } else {
@@ -139,7 +142,7 @@ void check_file(const std::string& file, const CheckOptions& options, Checked& c
 }
 
 // One bad file does not hide the others.
-Checked check_or_fail(const std::string& file, const CheckOptions& options) {
+Checked check_or_fail(const std::string& file, const CheckCommandOptions& options) {
   Checked checked;
   try {
     check_file(file, options, checked);
@@ -147,7 +150,7 @@ Checked check_or_fail(const std::string& file, const CheckOptions& options) {
   return checked;
 }
 
-int print(const std::string& file, const Checked& checked, const CheckOptions& options) {
+int print(const std::string& file, const Checked& checked, const CheckCommandOptions& options) {
   for (const std::string& note : checked.notes) print_note(note);
   if (checked.failure) return report(failure_of(checked.failure, file), options.json, file);
   (checked.picture.empty() ? std::cout : std::cerr) << checked.text << std::flush;
@@ -156,7 +159,7 @@ int print(const std::string& file, const Checked& checked, const CheckOptions& o
 }
 
 // On all processors at once, and reported in the order of the files.
-int check_at_once(const CheckOptions& options) {
+int check_at_once(const CheckCommandOptions& options) {
   int exit_code = exit_good;
   // as deep as that of the main thread
   const tbb::global_control stack(tbb::global_control::thread_stack_size, std::size_t{8} << 20);
@@ -181,7 +184,7 @@ int check_at_once(const CheckOptions& options) {
   return exit_code;
 }
 
-int check_files(const CheckOptions& options) {
+int check_files(const CheckCommandOptions& options) {
   for (const std::string& file : options.files) require_apart({{"FILE", file}}, {{"--svg", options.svg}});
   if (options.svg != "-") require_extension({"--svg", options.svg}, ".svg", "an SVG picture");
   // what is measured would be disturbed by others
@@ -192,10 +195,10 @@ int check_files(const CheckOptions& options) {
   return exit_code;
 }
 
-int write_graphs(const CheckOptions& options) {
+int write_graphs(const CheckCommandOptions& options) {
   if (options.folder.empty()) throw std::invalid_argument("--generate needs -o DIR, a folder for the graphs");
   std::filesystem::create_directories(options.folder);
-  Generation generation = options.generation;
+  analysis::Generation generation = options.generation;
   generation.kind = options.generate;
   const auto path_of = [&](std::uint64_t seed) {
     return options.folder + "/" + generation.kind + "_" + std::to_string(seed) + ".yaml";
@@ -207,7 +210,7 @@ int write_graphs(const CheckOptions& options) {
                                   "remove it");
   for (int i = 0; i < options.count; ++i, ++generation.seed) {
     AtomicFile file(path_of(generation.seed), Replaces::nothing);
-    file.write(generate_graph(generation));
+    file.write(analysis::generate_graph(generation));
     file.commit();
   }
   std::cerr << options.count << (options.count == 1 ? " graph in " : " graphs in ") << options.folder << "\n";
@@ -217,7 +220,7 @@ int write_graphs(const CheckOptions& options) {
 }  // namespace
 
 void add_check(CommandLine& line, int& exit_code) {
-  auto options = std::make_shared<CheckOptions>();
+  auto options = std::make_shared<CheckCommandOptions>();
   Command* command =
       line.add_subcommand("check",
                           "Check structure, types and timing of graphs, and whether they can be scheduled.\n"

@@ -98,9 +98,20 @@ const RunEnd& attend(Runner& runner, const RunArguments& arguments) {
        .on_stuck = {.report = report_stuck}});
 }
 
+WhatIfSetup what_if_setup(const RunArguments& arguments, Duration end) {
+  return {.load = [&](const Overrides& with) { return load_graph(arguments.file, with, arguments.seed); },
+          .overrides = arguments.overrides,
+          .seed = arguments.seed,
+          .workers = arguments.workers,
+          .execution = arguments.execution,
+          .end = end,
+          .option = "--what-if",
+          .execution_option = "--execution"};
+}
+
 int run(RunArguments arguments, WatchRun* watch) {
   if (arguments.guard) look_up_at_once();
-  WhatIfs what_ifs(arguments.what_if);
+  const std::vector<WhatIf> asked = parse_what_ifs(arguments.what_if);
   const std::vector<Save> saves = parse_saves(arguments.checkpoints.saves);
   require_files_apart(arguments, saves);
   std::optional<Checkpoint> resumed;
@@ -115,8 +126,7 @@ int run(RunArguments arguments, WatchRun* watch) {
   options.resumed_from = arguments.checkpoints.resume;
   Runner::require_runnable(options, loaded);
   require_console(arguments, loaded);
-  what_ifs.prepare(graph, arguments.file, arguments.overrides, arguments.seed, arguments.workers, arguments.execution,
-                   options.end);
+  WhatIfs what_ifs(asked, what_if_setup(arguments, options.end), graph);
   const ReportsAside aside(arguments.files);
   RunFiles files(graph, arguments.files, note_of(arguments.overrides, arguments.seed), types_of_truth(loaded));
   const SignalStack signal_stack;  // of what reports a crash; before the guard, which leaves it writable
@@ -150,7 +160,10 @@ int run(RunArguments arguments, WatchRun* watch) {
   halt_if_asked(run_end);
   std::string not_run;  // of what-ifs
   try {
-    if (!run_end.hangs) what_ifs.run(runner.joined().sinks(), files);
+    if (!run_end.hangs)
+      what_ifs.run(
+          runner.joined().sinks(), [&](std::size_t i) { return files.beside("what if " + std::to_string(i + 1)); },
+          Interruptible::wish);
   } catch (const std::exception& error) { not_run = error.what(); }
   const RunOutcome outcome = runner.finish();
   if (runner.recording() != nullptr && !run_end.hangs) std::cerr << notes_of(arguments.recording, *runner.recording());

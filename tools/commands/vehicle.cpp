@@ -5,19 +5,24 @@
 #include <memory>
 #include <optional>
 
+#include "distributers/serve/made_vehicle.h"
+#include "distributers/serve/serve_vehicle.h"
 #include "graph/language/quantities.h"
 #include "graph/registry.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/run/apart.h"
+#include "tools/commands/run/interrupt.h"
 #include "tools/commands/run/known_with.h"
-#include "tools/commands/vehicle/made_vehicle.h"
 #include "tools/commands/vehicle/motion_file.h"
 #include "tools/commands/vehicle/open_loop.h"
-#include "tools/commands/vehicle/serve_vehicle.h"
+#include "tools/commands/vehicle/serve_in_lockstep.h"
+#include "tools/commands/vehicle/serve_report.h"
 #include "tools/library/built_in.h"
 #include "tools/report/command_line.h"
 #include "tools/report/describe_vehicle.h"
 #include "tools/report/duration_option.h"
+#include "tools/report/exit_code.h"
+#include "tools/report/json_line.h"
 
 namespace jarol::tools {
 namespace {
@@ -28,7 +33,7 @@ struct VehicleCommandOptions {
   bool describe = false;
   bool json = false;
   bool bare = false;
-  VehicleOptions made;
+  VehicleOptions made{.words = {.set = "--set", .initial = "--initial"}};
   std::string script;
   std::string csv;
   std::string duration;
@@ -75,7 +80,9 @@ int drive(const VehicleCommandOptions& options, const vehicles::VehicleClass& ve
     std::cerr << "error: " << error.what() << "\n";
     return exit_unfinished;
   }
-  return report_mishap(*vehicle, vehicle_class.name) ? exit_negative : exit_good;
+  const std::optional<vehicles::Mishap> mishap = vehicle->mishap();
+  if (mishap) report(*mishap, vehicle_class.name);
+  return mishap ? exit_negative : exit_good;
 }
 
 // The options of a link as the mapping that a graph would have.
@@ -129,14 +136,29 @@ int serve(const VehicleCommandOptions& options, const vehicles::VehicleClass& ve
   const Duration end = options.duration.empty() ? Duration::max() : end_of(options, {});
   std::optional<MotionFile> motion;
   const Duration period = options.csv.empty() ? Duration{} : period_of(options, vehicle->grid(), end);
-  if (!options.csv.empty()) motion.emplace(options.csv, vehicle_class);
-  const Telemetry telemetry = options.bare ? Telemetry::true_state : Telemetry::all;
-  RealTimeOptions real_time;
-  if (options.priority > 0) real_time.priority = options.priority;
-  const int exit_code = serve_vehicle(*vehicle, vehicle_class, *link, end,
-                                      {telemetry, options.json, motion ? &*motion : nullptr, period}, real_time);
+  if (!options.csv.empty()) motion.emplace(options.csv, vehicle_class, period);
+  ServeOptions serving{.end = end,
+                       .telemetry = options.bare ? Telemetry::true_state : Telemetry::all,
+                       .interrupted = &Interruptible::interrupted(),
+                       .note = [](const std::string& text) { std::cerr << "note: " << text << "\n"; }};
+  if (options.priority > 0) serving.real_time.priority = options.priority;
+  if (motion) serving.sinks.push_back(&*motion);
+  serving.on_connected = [&](const distributers::Link& connected) {
+    std::cerr << vehicle_class.name << ": " << connected.transport().text() << ", until Ctrl-C\n";
+  };
+  let_writing_fail();
+  const Interruptible interruptible;
+  const ServeOutcome outcome = serve_vehicle(*vehicle, vehicle_class, *link, serving);
+  if (!outcome.failure.empty()) std::cerr << "error: " << outcome.failure << "\n";
+  if (options.json)
+    std::cout << json_line(to_json(vehicle_class, outcome));
+  else
+    std::cout << to_text(vehicle_class, outcome);
+  if (outcome.mishap) report(*outcome.mishap, vehicle_class.name);
   if (motion) motion->commit();
-  return exit_code;
+  // a signal is how it ends without --for, and nobody else knows of the mishap
+  return exit_of({outcome.failure.empty() ? int{exit_good} : int{exit_unfinished},
+                  outcome.mishap ? int{exit_negative} : exit_of_signal(Interruptible::signal())});
 }
 
 // A vehicle on TCP is the one that listens, unless an option says whom to connect to.

@@ -11,6 +11,7 @@
 
 #include "distributers/session/replayer.h"
 #include "distributers/session/runner.h"
+#include "distributers/session/what_if.h"
 #include "tools/library/built_in.h"
 
 namespace jarol {

@@ -8,7 +8,7 @@ TEST_SUITE("runtime/chunk_ring") {
   TEST_CASE("of large chunks no more wait than the queue may have, however few they are") {
     ChunkRing ring([] { return std::make_unique<mcap::Chunk>(); });
     const auto fill = [&](std::size_t bytes) {
-      ring.filling().add_message(1, 0, 0, bytes);
+      ring.filling().add_message(1, 0, {}, bytes);
       ring.filling().seal();
       ring.next();
     };

@@ -91,7 +91,7 @@ std::size_t misses_replayed(const std::string& text, Duration end, bool has_outs
   const RealRun real = run(text, end, 1, {}, 1,
                            has_outside ? tests::outside() : std::vector<std::unique_ptr<ExternalSystem>>{}, &recorder);
   recorder.close();
-  const tests::Run again = replay(graph, real.report.covered, replayed_channels(graph, log), log.misses);
+  const tests::Run again = replay(graph, real.report.covered, replayed_systems(graph, log), log.misses);
   CHECK(again.report.digest == real.report.digest);
   CHECK(first_difference(sorted(again.lines), sorted(real.lines)) == "");
   if (real.report.fault_count <= Report::faults_kept)
@@ -161,7 +161,7 @@ connections: [i -> r.in, r.out -> o, w -> m.in, m.out -> mean]
     recorder.close();
     CHECK(executor.report().non_finite_inputs > 0);
     CHECK(log.taken.size() > 300);
-    const tests::Run again = replay(graph, 500ms, replayed_channels(graph, log), {});
+    const tests::Run again = replay(graph, 500ms, replayed_systems(graph, log), {});
     CHECK(again.lines == lines.lines);
     CHECK(again.report.digest == executor.report().digest);
   }
@@ -253,7 +253,7 @@ connections: [i -> a.in, a.out -> b.in, b.out -> o, a.out -> under_way.in]
       const Report& real = executor.report();
       CHECK(real.instants == 7);
       CHECK(real.covered == 6ms + 1ns);
-      const tests::Run again = replay(graph, real.covered, replayed_channels(graph, log), log.misses);
+      const tests::Run again = replay(graph, real.covered, replayed_systems(graph, log), log.misses);
       CHECK(again.report.digest == real.digest);
       CHECK(again.report.activations == real.activations);
     }

@@ -76,7 +76,7 @@ void check_replay(const Graph& graph, const std::string& path, const Report& sho
   const std::vector<Miss> misses = log.begin(graph);
   ReplayedValues values(log, outputs_of(graph));
   Recorder recorder({&values});
-  Executor executor(graph, replayed_channels(graph, log), {.recorder = &recorder, .misses = misses});
+  Executor executor(graph, replayed_systems(graph, log), {.recorder = &recorder, .misses = misses});
   executor.run_until(log.covered());
   recorder.close();
   log.require_all_taken();

@@ -41,9 +41,9 @@ struct Written {
     const std::span bytes(reinterpret_cast<const std::byte*>(message.data.data()), message.data.size());
     if (message.channel == value_topic) {
       double value = 0;
-      if (!decode_cdr(type_of<double>(), bytes, &value).empty() || value != static_cast<double>(message.time))
+      if (!decode_cdr(type_of<double>(), bytes, &value).empty() || value != static_cast<double>(message.time.count()))
         wrong = "another value";
-      values.push_back(message.time);
+      values.push_back(message.time.count());
     } else if (message.channel == event_topic) {
       RecordedEvent event;
       wrong += decode_cdr(type_of<RecordedEvent>(), bytes, &event);

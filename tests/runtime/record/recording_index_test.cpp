@@ -63,8 +63,9 @@ std::string text_of(const Recording& recording) {
     text += "\n" + std::to_string(id) + " " + topic.channel.topic + " " + topic.schema_name + " " + topic.schema + " " +
             std::to_string(topic.messages);
   for (const ReadPlace& chunk : recording.chunks())
-    text += "\n" + std::to_string(chunk.offset) + " " + std::to_string(chunk.start) + " " + std::to_string(chunk.end) +
-            " " + std::to_string(chunk.min_channel) + " " + std::to_string(chunk.max_channel);
+    text += "\n" + std::to_string(chunk.offset) + " " + std::to_string(chunk.start.count()) + " " +
+            std::to_string(chunk.end.count()) + " " + std::to_string(chunk.min_channel) + " " +
+            std::to_string(chunk.max_channel);
   return text;
 }
 
@@ -161,7 +162,7 @@ TEST_SUITE("runtime/recording_index") {
     const Recording recording(file.path());
     MessageCursor cursor(recording, topic_of(recording, "a.out"), 59s);
     REQUIRE(cursor.message() != nullptr);
-    CHECK(Duration(cursor.message()->time) == 59s);
+    CHECK(cursor.message()->time == 59s);
     CHECK_THROWS_WITH_AS(MessageCursor(recording, topic_of(recording, "a.out")),
                          ("'" + file.path() + "' is damaged: at byte " + std::to_string(first->offset) +
                           " there is a chunk whose check sum is another")
@@ -221,7 +222,7 @@ TEST_SUITE("runtime/recording_index") {
     mcap::Chunk chunk;
     chunk.add(record_of(schema));
     chunk.add(record_of(channel));
-    chunk.add_message(1, 0, 5, 12);
+    chunk.add_message(1, 0, Duration(5), 12);
     chunk.add("\x05half");
     writer.write(chunk);
     writer.end({schema}, {channel});

@@ -15,7 +15,7 @@ std::string jitter_text(const analysis::ChainLatency& latency) {
 
 // The phase that a loop through the chain loses at its crossover: the delay from read to output, and half a period that
 // the output is held (Franklin, Powell, Workman 1998).
-std::string control_view(const Graph& graph, const ReportedChain& c) {
+std::string control_view(const Graph& graph, const analysis::CheckedChain& c) {
   const End& last = c.chain.path.back();
   const std::int64_t period = last.kind == End::Kind::task ? graph.tasks[last.index].period.count()
                                                            : graph.communicators[last.index].period.count();
@@ -46,7 +46,7 @@ std::string late_outs(const Graph& graph) {
 
 std::string chain_lines(const CheckReport& r) {
   std::string text;
-  for (const ReportedChain& c : r.chains) {
+  for (const analysis::CheckedChain& c : r.chains) {
     const analysis::ChainLatency& m = c.latency;
     text += fmt::format("  chain {}: reaction {} to {}, data age at most {}, jitter {}{}\n", c.chain.name,
                         m.exact ? duration(m.min_reaction) : "-", duration(m.max_reaction), duration(m.max_age),

@@ -73,7 +73,7 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
                            {"blocking_ns", r.result.demand->blocking}};
   }
   auto chains = Json::array();
-  for (const ReportedChain& c : r.chains)
+  for (const analysis::CheckedChain& c : r.chains)
     chains.push_back({{"name", c.chain.name},
                       {"exact", c.latency.exact},
                       {"max_reaction_ns", c.latency.max_reaction},
@@ -85,9 +85,9 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
                       {"holds", json_or_null(holds(c))}});
   const Platform& platform = r.graph->platform;
   auto suggestions = Json::array();
-  for (const Remedy& remedy : r.remedies) suggestions.push_back(remedy.text);
+  for (const analysis::Remedy& remedy : r.remedies) suggestions.push_back(remedy.text);
   auto sets = Json::array();
-  for (const Remedy& remedy : r.remedies) sets.push_back(remedy.set);
+  for (const analysis::Remedy& remedy : r.remedies) sets.push_back(remedy.set);
   return {{"schema", "jarol.check/2"},
           {"file", r.file},
           {"graph", r.graph->name},

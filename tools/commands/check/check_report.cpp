@@ -54,7 +54,7 @@ std::string worst_response(const CheckReport& r) {
 // it may be.
 std::string broken_limits(const CheckReport& r) {
   std::string is, may_be;
-  for (const ReportedChain& c : r.chains) {
+  for (const analysis::CheckedChain& c : r.chains) {
     std::string& names = c.latency.exact ? is : may_be;
     if (holds(c) != true) names += (names.empty() ? "'" : ", '") + c.chain.name + "'";
   }

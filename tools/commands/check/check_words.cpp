@@ -7,35 +7,6 @@
 
 namespace jarol::tools {
 
-std::optional<bool> holds(const ReportedChain& c) {
-  if (analysis::broken_limits(c.chain, c.latency).empty()) return true;
-  return c.latency.exact ? std::optional(false) : std::nullopt;
-}
-
-const Task* longer_than_stated(const CheckReport& r) {
-  if (!r.measured) return nullptr;
-  const Task* worst = nullptr;
-  Duration max_over{};
-  for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
-    const Task& task = r.graph->tasks[i];
-    const Duration over = task.wcet ? r.measured->tasks[i].max - *task.wcet : Duration{};
-    if (over <= max_over) continue;
-    max_over = over;
-    worst = &task;
-  }
-  return worst;
-}
-
-std::optional<bool> chains_hold(const CheckReport& report) {
-  std::optional<bool> all = true;
-  for (const ReportedChain& chain : report.chains) {
-    const std::optional<bool> one = holds(chain);
-    if (one == false) return false;
-    if (!one) all.reset();
-  }
-  return all;
-}
-
 std::string assumption(const Graph& graph) {
   const Platform& platform = graph.platform;
   const Policy& policy = analysis::policy_of(platform);

@@ -1,7 +1,6 @@
 // What the report of a check says in the same words as text and as JSON.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "tools/commands/check/check_report.h"
@@ -10,9 +9,6 @@ namespace jarol::tools {
 
 /// Nanoseconds, as in 1ms.
 inline std::string duration(std::int64_t ns) { return duration_text(Duration(ns)); }
-
-/// Does the chain keep its limits? None: its latency is known by bounds only, and these exceed one.
-std::optional<bool> holds(const ReportedChain& chain);
 
 /// Who runs when, and what that costs.
 std::string assumption(const Graph& graph);

@@ -6,34 +6,20 @@
 #include <stdexcept>
 
 #include "graph/language/quantities.h"
+#include "graph/model/with_wcets.h"
 #include "runtime/files/atomic_file.h"
-#include "tools/commands/check/measure.h"
+#include "tools/commands/run/crash_line.h"
+#include "tools/commands/run/load_graph.h"
+#include "tools/report/fault_report.h"
 
 namespace jarol::tools {
 namespace {
-
-// How long to measure: --for, else the mission, else ten seconds.
-Duration measured_time(const MeasureOptions& options, const Loaded& loaded) {
-  if (options.duration) return *options.duration;
-  Duration end{};
-  for (const auto& channels : loaded.channels) end = std::max(end, channels->end().value_or(Duration{}));
-  return end > Duration{} ? end : std::chrono::seconds(10);
-}
-
-void require_in_process(const Loaded& loaded) {
-  if (const Distributer* distributer = find_in_real_time(loaded))
-    throw std::invalid_argument("distributer '" + distributer->name +
-                                "' has a link to what goes on by itself, from which nothing comes while tasks are "
-                                "measured; choose a link in process, as simulation or script");
-}
 
 // A task of the measured graph, and what goes for it in the file.
 struct Row {
   std::string name;
   MeasuredTask measured;
-  std::optional<Duration> stated;
-  std::optional<Duration> written;
-  bool kept = false;
+  ChosenWcet wcet;
 };
 
 std::string row_text(const Row& row, std::size_t width, bool write) {
@@ -41,10 +27,10 @@ std::string row_text(const Row& row, std::size_t width, bool write) {
   const bool ran = row.measured.activations > 0;
   std::string line = fmt::format("  {:<{}}  {:>11}  {:>9}  {:>9}  {:>9}", row.name, width, row.measured.activations,
                                  ran ? duration_text(row.measured.max_of_999) : "-",
-                                 ran ? duration_text(row.measured.max) : "-", text(row.stated));
-  if (write) line += fmt::format("  {:>9}", row.kept ? "kept" : text(row.written));
+                                 ran ? duration_text(row.measured.max) : "-", text(row.wcet.stated));
+  if (write) line += fmt::format("  {:>9}", row.wcet.kept ? "kept" : text(row.wcet.written));
   if (!ran) return line + "  never released in that time\n";
-  return line + (row.stated && row.measured.max > *row.stated ? "  LONGER THAN ITS WCET\n" : "\n");
+  return line + (row.wcet.stated && row.measured.max > *row.wcet.stated ? "  LONGER THAN ITS WCET\n" : "\n");
 }
 
 std::string table(const std::vector<Row>& rows, bool write) {
@@ -56,42 +42,12 @@ std::string table(const std::vector<Row>& rows, bool write) {
   return text;
 }
 
-// What lengthens an activation once in a while: an interrupt, cold caches, a page. It hit some task while these were
-// measured, and may hit any other the next time.
-Duration longest_disturbance(const std::vector<Row>& rows) {
-  Duration longest{};
-  for (const Row& row : rows) longest = std::max(longest, row.measured.max - row.measured.max_of_999);
-  return longest;
-}
-
-// A measurement that met no disturbance does not know how long one is, and what it writes must hold when the next one
-// meets it: tasks of a microsecond were seen to take 40 us of processor time on a busy machine.
-constexpr Duration min_disturbance = std::chrono::microseconds(100);
-
-// Decides what is written for the tasks of the file as it stands, without overrides.
-void choose_written(const Graph& in_file, const MeasureOptions& options, std::vector<Row>& rows) {
-  const Duration met = longest_disturbance(rows), expected = std::max(met, min_disturbance);
-  const auto wcet_with = [&](const Row& row, Duration disturbance) {
-    return with_margin(std::max(row.measured.max, row.measured.max_of_999 + disturbance), options.margin / 100);
-  };
-  for (Row& row : rows) {
-    const auto task =
-        std::find_if(in_file.tasks.begin(), in_file.tasks.end(), [&](const Task& t) { return t.name == row.name; });
-    row.stated = task == in_file.tasks.end() ? std::nullopt : task->wcet;
-    if (task == in_file.tasks.end() || row.measured.activations == 0) continue;
-    const Duration wcet = wcet_with(row, expected);
-    // one that is stated need not have room for what was not met
-    row.kept = row.stated && *row.stated >= wcet_with(row, met) && (!options.lower || *row.stated <= wcet);
-    if (!row.kept) row.written = wcet;
-  }
-}
-
 void write_wcets(const std::string& file, const std::shared_ptr<const Source>& source, const Overrides& overrides,
                  const Loaded& in_file, const std::vector<Row>& rows) {
   std::vector<std::optional<Duration>> wcets;
   for (const Task& task : in_file.graph->tasks) {
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name == task.name; });
-    wcets.push_back(row == rows.end() ? std::nullopt : row->written);
+    wcets.push_back(row == rows.end() ? std::nullopt : row->wcet.written);
   }
   const std::string edited = with_wcets(source->text, in_file.spec, *in_file.graph, wcets);
   if (read_source(file)->text != source->text)
@@ -106,23 +62,28 @@ void write_wcets(const std::string& file, const std::shared_ptr<const Source>& s
 
 Measurement measure_file(const std::string& file, const Overrides& overrides, const MeasureOptions& options) {
   Loaded loaded = load_graph(file, overrides);
-  require_in_process(loaded);
-  const Duration end = measured_time(options, loaded);
   const auto source = options.write ? read_source(file) : nullptr;
   const Loaded in_file = options.write ? load_graph(source, without_changes(overrides)) : Loaded{};
-  Measurement measurement = measure_tasks(loaded, end);
-  const std::vector<MeasuredTask>& measured = measurement.tasks;
+  const Graph& graph = *loaded.graph;
+  const Measurement measurement = [&] {
+    const CrashLine crash_line(graph);
+    return measure_tasks(loaded, options.duration);
+  }();
   std::vector<Row> rows;
-  for (std::size_t i = 0; i < measured.size(); ++i)
-    rows.push_back({loaded.graph->tasks[i].name, measured[i], loaded.graph->tasks[i].wcet, std::nullopt});
-  if (options.write) choose_written(*in_file.graph, options, rows);
+  for (std::size_t i = 0; i < graph.tasks.size(); ++i)
+    rows.push_back({graph.tasks[i].name, measurement.tasks[i], {graph.tasks[i].wcet, {}}});
+  if (options.write) {
+    const auto wcets = choose_wcets(graph, measurement, *in_file.graph, options.margin / 100, options.lower);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].wcet = wcets[i];
+  }
+  const std::string faults = fault_report(measurement.report);
   const auto any = [&](auto is) { return std::any_of(rows.begin(), rows.end(), is); };
-  const bool writes = any([](const Row& row) { return row.written.has_value(); });
+  const bool writes = any([](const Row& row) { return row.wcet.written.has_value(); });
   const auto report = [&](bool written) {
-    std::cerr << file << ": measured over " << duration_text(end)
+    std::cerr << file << ": measured over " << duration_text(measurement.over)
               << " of logical time on this machine, in processor time\n"
-              << table(rows, written) << measurement.faults;
-    if (!measurement.faults.empty()) std::cerr << "  the times of faulty activations are among those above\n";
+              << table(rows, written) << faults;
+    if (!faults.empty()) std::cerr << "  the times of faulty activations are among those above\n";
   };
   try {
     if (writes) write_wcets(file, source, without_changes(overrides), in_file, rows);
@@ -138,7 +99,7 @@ Measurement measure_file(const std::string& file, const Overrides& overrides, co
                              "with {:g} % on top\n",
                              file, duration_text(min_disturbance), options.margin)
                        : fmt::format("  nothing is written into {}\n", file));
-  if (any([](const Row& row) { return row.kept; }))
+  if (any([](const Row& row) { return row.wcet.kept; }))
     std::cerr << (options.lower
                       ? fmt::format("  a 'wcet' was kept that leaves no more than the margin over a disturbance "
                                     "of {}\n",

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "distributers/session/measure.h"
 #include "graph/language/load.h"
-#include "tools/commands/check/measure.h"
 
 namespace jarol::tools {
 

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "distributers/session/checked_graph.h"
 #include "graph/language/override.h"
 #include "graph/plugins/plugins.h"
-#include "tools/commands/check/check_graph.h"
+#include "tools/commands/check/check_report.h"
 #include "tools/commands/edit/spec_drawing.h"
 #include "tools/commands/run/known_with.h"
 #include "tools/drawing/graph/drawing_json.h"
@@ -90,8 +91,9 @@ std::string refused_plugins(const Source& text, const std::vector<std::string>& 
 
 Json judge(const EditedText& text) {
   try {
-    const Loaded loaded = load_graph(text.source, text.overrides);
-    const CheckReport report = check_graph(text.source->name, *loaded.graph, false, false);
+    const CheckedGraph checked =
+        check_graph(text.source, built_in(), {.overrides = text.overrides, .remedies = false, .note = note_once});
+    const CheckReport report(text.source->name, checked.found);
     return {{"problems", Json::array()}, {"check", to_json(report)}, {"report", to_text(report)}};
   } catch (...) { return {{"problems", problems_json(std::current_exception())}}; }
 }
@@ -120,11 +122,8 @@ Json draw(const EditedText& text) {
 Json suggest(const EditedText& text) {
   auto list = Json::array();
   try {
-    const Loaded loaded = load_graph(text.source, text.overrides);
-    const CheckReport report = check_graph(text.source->name, *loaded.graph, false, false);
-    analysis::Budget budget;
-    budget.left = 30'000'000;
-    for (const Remedy& remedy : find_remedies(text.source, text.overrides, loaded.known->graph, report, budget))
+    for (const analysis::Remedy& remedy :
+         check_graph(text.source, built_in(), {.overrides = text.overrides, .note = note_once}).remedies)
       list.push_back({{"text", remedy.text}, {"set", remedy.set}});
   } catch (const std::exception&) {
     // what does not load has problems instead

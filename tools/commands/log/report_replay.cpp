@@ -15,7 +15,7 @@ std::vector<MeasuredTask> measure(RecordedRun& run, const Graph& graph) {
   if (thread_time_between_readings() == Duration{}) return {};
   // what was late then is run, too
   run.begin(graph);
-  Executor executor(graph, replayed_channels(graph, run), {.digest = false, .sharing = Sharing::measure});
+  Executor executor(graph, replayed_systems(graph, run), {.digest = false, .sharing = Sharing::measure});
   executor.run_until(run.covered());
   std::vector<MeasuredTask> measured;
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
@@ -32,7 +32,7 @@ ReportReplay replay_for_report(RecordedRun& run, Loaded loaded, bool other_graph
   const CrashLine crash_line(*loaded.graph);
   replayed.measured = measure(run, *loaded.graph);
   const std::vector<Miss> misses = run.begin(*loaded.graph);
-  loaded.channels = recorded_channels(loaded, run);
+  loaded.channels = recorded_systems(loaded, run);
   ReplayedValues values(run, outputs_of(*loaded.graph));
   std::vector<RecordSink*> sinks;
   if (values.has_any()) sinks.push_back(&values);

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "distributers/session/load.h"
+#include "distributers/session/measure.h"
 #include "distributers/session/replay.h"
 #include "distributers/session/verdict.h"
-#include "tools/commands/check/measure.h"
 
 namespace jarol::tools {
 

@@ -147,7 +147,7 @@ nlohmann::ordered_json signals_json(const RecordedRun& run) {
     kept.emplace(topic->channel.id, KeptTopic(*topic, run.covered(), thinning));
   for (MessageCursor cursor(recording, published_channels(recording)); cursor.message() != nullptr; cursor.next()) {
     KeptTopic& topic = kept.at(cursor.message()->channel);
-    topic.take(Duration(cursor.message()->time), topic.layout().read(cursor.message()->data));
+    topic.take(cursor.message()->time, topic.layout().read(cursor.message()->data));
   }
   Json topics = Json::array(), signals = Json::array();
   for (const auto& [name, topic] : published) {

@@ -1,6 +1,7 @@
 // Runs with a common past, side by side.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 #include <string_view>
 
@@ -11,6 +12,14 @@
 
 namespace jarol::tools {
 namespace {
+
+// Angles in degrees.
+double shown(const RunColumn::Reached& reached) {
+  return reached.unit == "rad" ? reached.value * 180 / std::numbers::pi : reached.value;
+}
+const char* shown_unit(const RunColumn::Reached& reached) {
+  return reached.unit == "rad" ? "deg" : reached.unit.c_str();
+}
 
 using Columns = std::vector<const RunColumn*>;
 
@@ -39,7 +48,7 @@ std::string table(const Columns& columns) {
   for (std::size_t i = 0; i < columns[0]->reached.size(); ++i) {
     const RunColumn::Reached& first = columns[0]->reached[i];
     text += line_of(columns, first.title + (first.is_true ? ", true" : ""), [&](const RunColumn& column) {
-      return fmt::format("{:.3f} {}", column.reached[i].value, first.unit);
+      return fmt::format("{:.3f} {}", shown(column.reached[i]), shown_unit(first));
     });
   }
   text += line_of(columns, "faults", [](const RunColumn& column) { return std::to_string(column.fault_count); });
@@ -88,7 +97,7 @@ nlohmann::ordered_json to_json(const std::vector<WhatIfOutcome>& what_ifs) {
   for (const auto& [what_if, column, differences] : what_ifs) {
     auto reached = nlohmann::ordered_json::object(), truth = nlohmann::ordered_json::object();
     for (const RunColumn::Reached& each : column.reached)
-      (each.is_true ? truth : reached)[each.title] = {{"value", each.value}, {"unit", each.unit}};
+      (each.is_true ? truth : reached)[each.title] = {{"value", shown(each)}, {"unit", shown_unit(each)}};
     nlohmann::ordered_json json{{"at_ns", what_if.at.count()},
                                 {"set", what_if.set},
                                 {"digest", fmt::format("0x{:016x}", column.digest)},

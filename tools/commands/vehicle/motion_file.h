@@ -4,22 +4,24 @@
 #include <string>
 #include <vector>
 
-#include "distributers/interfaces/vehicle.h"
+#include "distributers/serve/vehicle_sink.h"
 #include "graph/values/bind.h"
 #include "runtime/files/atomic_file.h"
 
 namespace jarol::tools {
 
-class MotionFile {
+class MotionFile : public VehicleSink {
  public:
-  /// The file appears when it is committed. Throws std::runtime_error if it can't be written; so do the others.
-  MotionFile(const std::string& path, const vehicles::VehicleClass& vehicle_class);
+  /// A row each `period`, a multiple of the vehicle's grid: `time` (s), the state, then the vehicle's other outputs; an
+  /// empty cell for what no sensor has reported yet. The file appears when it is committed. Throws std::runtime_error
+  /// if it can't be written; so do the others.
+  MotionFile(const std::string& path, const vehicles::VehicleClass& vehicle_class, std::chrono::nanoseconds period);
 
-  /// A row: `time` (s), the state, then the vehicle's other outputs; an empty cell for what no sensor has reported yet.
-  void add(std::chrono::nanoseconds at, const vehicles::Vehicle& vehicle);
+  void add(const VehicleMoment& moment) override;
   void commit() { file_.commit(); }
 
  private:
+  const std::chrono::nanoseconds period_;
   std::vector<Leaf> states_, outputs_;
   AtomicFile file_;
   std::string row_;

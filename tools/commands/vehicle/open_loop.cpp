@@ -67,13 +67,13 @@ std::vector<Commands> read_commands(const std::shared_ptr<const Source>& script,
 
 void run_open_loop(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class,
                    const std::vector<Commands>& commands, Duration period, Duration end, const std::string& path) {
-  MotionFile file(path, vehicle_class);
+  MotionFile file(path, vehicle_class, period);
   std::atomic<Duration> reached{};
   const Progress progress(::isatty(STDERR_FILENO) == 1 && end > Duration{}, end, [&] { return reached.load(); });
   std::size_t next = 0;
   for (Duration at{};; at += vehicle.grid()) {
     reached = at;
-    if (at % period == Duration{}) file.add(at, vehicle);
+    file.add({at, false, vehicle});
     if (at >= end) break;
     while (next < commands.size() && commands[next].time <= at) ++next;
     // given again at each step, so that no time-out of the vehicle ends a row before its time

@@ -44,8 +44,8 @@ Ticks find_ticks(double range, int max, bool angle) {
   return {5, exponent};
 }
 
-Axis time_axis(std::int64_t end, double from, double to) {
-  const double seconds = end > 0 ? static_cast<double>(end) * 1e-9 : 1.0;
+Axis time_axis(Duration end, double from, double to) {
+  const double seconds = end > Duration{} ? static_cast<double>(end.count()) * 1e-9 : 1.0;
   Axis axis{0, seconds, from, to, find_ticks(seconds, 12, false)};
   // a run of 100 s ends at 99.98 s: the tick it just misses belongs to it
   const double next = axis.ticks.at(static_cast<std::int64_t>(std::ceil(seconds / axis.ticks.at(1))));

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "graph/language/duration.h"
+
 namespace jarol::tools {
 
 /// Ticks lie at whole multiples of digits * 10^exponent.
@@ -39,6 +41,6 @@ struct Axis {
 };
 
 /// Of a run that ends so many ns after its start, over these px.
-Axis time_axis(std::int64_t end, double from, double to);
+Axis time_axis(Duration end, double from, double to);
 
 }  // namespace jarol::tools

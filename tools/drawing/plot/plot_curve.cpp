@@ -26,7 +26,7 @@ void PlotCurve::Span::widen(const Span& next) {
   last = next.last;
 }
 
-void PlotCurve::add(std::int64_t instant, const void* output) {
+void PlotCurve::add(Duration instant, const void* output) {
   double value = read_number(leaf, output) * factor;
   if (!(std::abs(value) < max_value)) return;  // nor what is no number
   if (heading && std::abs(value) > 180) value -= 360 * std::ceil((value - 180) / 360);
@@ -57,14 +57,15 @@ void PlotCurve::add(std::int64_t instant, const void* output) {
   samples_in_last = 1;
 }
 
-std::vector<PlotCurve::Point> PlotCurve::points(std::int64_t end) const {
+std::vector<PlotCurve::Point> PlotCurve::points(Duration end) const {
   std::vector<Span> drawn;
   const bool all = samples_per_span == 1 && spans.size() <= max_points;
   // else one span for each column of the picture, up to three points of each
   constexpr std::size_t columns = max_points / 3;
   std::size_t column_before = columns;
   for (const Span& span : spans) {
-    const double part = static_cast<double>(span.last.instant) / static_cast<double>(std::max<std::int64_t>(end, 1));
+    const double part =
+        static_cast<double>(span.last.instant.count()) / static_cast<double>(std::max(end, Duration(1)).count());
     const std::size_t column = std::min(columns - 1, static_cast<std::size_t>(part * columns));
     if (all || drawn.empty() || column != column_before) {
       drawn.push_back(span);

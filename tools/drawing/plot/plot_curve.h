@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "graph/language/duration.h"
 #include "graph/values/bind.h"
 
 namespace jarol::tools {
@@ -12,9 +13,9 @@ struct PlotCurve {
   static constexpr double max_value = 1e300;  // what lies beyond can't be scaled without overflow
 
   struct Point {
-    std::int64_t instant = 0;  // ns
-    double value = 0;          // in the unit shown
-    std::int64_t turn = 0;     // whole turns that make a wrapped angle continuous again
+    Duration instant{};
+    double value = 0;       // in the unit shown
+    std::int64_t turn = 0;  // whole turns that make a wrapped angle continuous again
   };
   // What is kept of consecutive samples.
   struct Span {
@@ -34,10 +35,10 @@ struct PlotCurve {
   std::uint64_t samples_in_last = 0;
 
   /// Adds what the leaf reads in a published value.
-  void add(std::int64_t instant, const void* output);
+  void add(Duration instant, const void* output);
 
   /// At most about 2000 points of a run that ends at `end`.
-  std::vector<Point> points(std::int64_t end) const;
+  std::vector<Point> points(Duration end) const;
 };
 
 }  // namespace jarol::tools

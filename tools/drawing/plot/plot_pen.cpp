@@ -22,7 +22,7 @@ void PlotPen::curve(const PlotCurve& curve, const std::vector<PlotCurve::Point>&
   path_.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const PlotCurve::Point& b = points[i];
-    const double x_b = x.place(static_cast<double>(b.instant) * 1e-9);
+    const double x_b = x.place(static_cast<double>(b.instant.count()) * 1e-9);
     const double y_b = y.place(b.value);
     if (i == 0) {
       start(x_b, y_b);
@@ -39,7 +39,7 @@ void PlotPen::curve(const PlotCurve& curve, const std::vector<PlotCurve::Point>&
       const double edge = b.turn > a.turn ? 180.0 : -180.0;
       const double way = b.value - a.value + 2 * edge;
       const double part = way == 0 ? 0.0 : std::clamp((edge - a.value) / way, 0.0, 1.0);
-      const double x_a = x.place(static_cast<double>(a.instant) * 1e-9);
+      const double x_a = x.place(static_cast<double>(a.instant.count()) * 1e-9);
       const double x_edge = x_a + part * (x_b - x_a);
       go_on(x_edge, y.place(edge));
       start(x_edge, y.place(-edge));

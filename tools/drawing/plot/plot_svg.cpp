@@ -117,9 +117,9 @@ class PlotSvg::Beside : public RecordSink {
     return std::any_of(curves_.begin(), curves_.end(), [&](const auto& curve) { return curve.first == output; });
   }
   void take(Duration instant, std::uint32_t output, const void* value) override {
-    picture_.end_ = std::max(picture_.end_, instant.count());
+    picture_.end_ = std::max(picture_.end_, instant);
     for (const auto& [of, curve] : curves_)
-      if (of == output) picture_.curves_[curve].add(instant.count(), value);
+      if (of == output) picture_.curves_[curve].add(instant, value);
   }
   void finish() override {}
 
@@ -143,10 +143,10 @@ std::unique_ptr<RecordSink> PlotSvg::beside(std::string name) {
 }
 
 void PlotSvg::take(Duration instant, std::uint32_t output, const void* value) {
-  end_ = std::max(end_, instant.count());
+  end_ = std::max(end_, instant);
   for (PlotMap::Path& path : paths_) path.take(output, value);
   if (output >= curves_of_.size()) return;
-  for (const std::size_t i : curves_of_[output]) { curves_[i].add(instant.count(), value); }
+  for (const std::size_t i : curves_of_[output]) { curves_[i].add(instant, value); }
 }
 
 // From the right: what was reached, commanded, true, then what other runs reached; kinds from the left.

@@ -81,7 +81,7 @@ class PlotSvg : public RecordSink {
   std::vector<std::vector<std::size_t>> curves_of_;  // per output
   std::size_t others_ = 0;                           // other runs
   std::vector<PlotMap::Path> paths_;
-  std::int64_t end_ = 0;  // last instant of the run
+  Duration end_{};  // last instant of the run
 };
 
 }  // namespace jarol::tools

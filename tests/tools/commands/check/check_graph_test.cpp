@@ -1,16 +1,16 @@
 // Everything that can be said of a platform, of graphs of every kind: a verdict that fits, and a report of it.
-#include "tools/commands/check/check_graph.h"
+#include "tools/commands/check/check_report.h"
 
 #include <doctest/doctest.h>
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "graph/analysis/random_graphs.h"
 #include "graph/analysis/time_line.h"
 #include "graph/language/key.h"
 #include "graph/model/build.h"
 #include "tools/commands/check/gantt.h"
-#include "tools/commands/check/generate_graphs.h"
 #include "tools/library/built_in.h"
 
 namespace {
@@ -80,8 +80,8 @@ std::vector<std::shared_ptr<const Source>> graphs() {
   for (const char* kind : {"waters", "uunifast"})
     for (const double utilisation : {0.6, 1.4}) {
       if (std::getenv("JAROL_FULL") == nullptr && kind == std::string("waters")) continue;
-      const Generation generation{kind, 7, 6, utilisation, 1, "table"};
-      add(kind + std::to_string(utilisation), generate_graph(generation));
+      const analysis::Generation generation{kind, 7, 6, utilisation, 1, "table"};
+      add(kind + std::to_string(utilisation), analysis::generate_graph(generation));
     }
   return all;
 }
@@ -176,7 +176,7 @@ TEST_SUITE("tools/check_graph") {
               for (const std::string& set : overrides.set) made += " " + set;
               CAPTURE(made);
               const Graph graph = graph_of(source, overrides);
-              const CheckReport report = check_graph("file", graph, false, true);
+              const CheckReport report("file", analysis::check_graph(graph, false, true));
               check_verdict(report);
               check_texts(report);
               check_time_line(report);
@@ -207,7 +207,7 @@ TEST_SUITE("tools/check_graph") {
         "  o: {type: double, direction: out}\n" +
         tasks + connections;
     const Graph graph = graph_of(std::make_shared<Source>(Source{"ways", text}), {});
-    const CheckReport report = check_graph("ways", graph, false, true);
+    const CheckReport report("ways", analysis::check_graph(graph, false, true));
     REQUIRE(report.chains.size() == 1);
     CHECK(report.chains[0].chain.name == "i -> s0 -> o");
     CHECK_FALSE(report.more_paths);

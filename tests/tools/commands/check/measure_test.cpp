@@ -1,5 +1,5 @@
 // In one file: all cases measure the same tasks.
-#include "tools/commands/check/measure.h"
+#include "distributers/session/measure.h"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +7,10 @@
 #include <stdexcept>
 
 #include "graph/language/quantities.h"
+#include "graph/model/with_wcets.h"
 #include "tests/graph/graph_of.h"
 #include "tests/tools/run_command.h"
+#include "tools/commands/run/load_graph.h"
 
 namespace {
 using namespace jarol;
@@ -33,16 +35,16 @@ std::string rewritten(const std::string& text, const std::vector<std::optional<D
   const auto source = std::make_shared<Source>(Source{"t.yaml", text});
   const GraphSpec spec = load_spec(source, {}, problems);
   problems.throw_if_any();
-  return tools::with_wcets(text, spec, tests::graph_of(text), wcets);
+  return with_wcets(text, spec, tests::graph_of(text), wcets);
 }
 }  // namespace
 
 TEST_SUITE("tools/measure") {
   TEST_CASE("a margin comes on top, rounded up to three digits") {
-    CHECK(tools::with_margin(1000ns, 0.2) == 1200ns);
-    CHECK(tools::with_margin(12'345ns, 0) == 12'400ns);
-    CHECK(tools::with_margin(999ns, 0) == 999ns);
-    CHECK(tools::with_margin(0ns, 0.2) == 1ns);
+    CHECK(with_margin(1000ns, 0.2) == 1200ns);
+    CHECK(with_margin(12'345ns, 0) == 12'400ns);
+    CHECK(with_margin(999ns, 0) == 999ns);
+    CHECK(with_margin(0ns, 0.2) == 1ns);
   }
 
   TEST_CASE("WCETs are written into a file, and its comments and layout stay") {
@@ -292,7 +294,7 @@ communicators: {big: {type: double, direction: in, period: 10ms, init: 1.5e308}}
 
   TEST_CASE("every activation of every task is measured") {
     Loaded loaded = tools::load_graph("specs/counting.yaml", {});
-    const auto measured = tools::measure_tasks(loaded, 1s).tasks;
+    const auto measured = measure_tasks(loaded, 1s).tasks;
     REQUIRE(measured.size() == 5);
     const std::vector<std::size_t> activations{50, 100, 20, 50, 50};
     Duration sum{};
