@@ -9,6 +9,7 @@
 #include "distributers/session/record_run.h"
 #include "distributers/session/rest_verdict.h"
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 #include "runtime/execute/log_end.h"
 
 namespace jarol {
@@ -28,9 +29,9 @@ void require_options_of_clock(const RunOptions& options) {
   if (options.workers > 1)
     throw NotExecutable(options.words.workers + " belongs to the virtual clock; the real one goes by 'platform'");
   if (!options.execution.empty())
-    throw std::invalid_argument(options.words.execution +
-                                " belongs to the virtual clock; on the real one activations take the time that they "
-                                "take");
+    throw InputError(options.words.execution +
+                     " belongs to the virtual clock; on the real one activations take the time that they "
+                     "take");
 }
 
 void require_end(const RunOptions& options, Duration begun) {

@@ -6,6 +6,7 @@
 
 #include "graph/floating_point.h"
 #include "graph/language/problems.h"
+#include "graph/text/errors.h"
 
 namespace jarol {
 namespace {
@@ -39,12 +40,11 @@ void require_no_clock(const Loaded& loaded) {
 // `without_channel`: what is fed to communicators alone.
 void require_recordable(const RecordingOptions& recording, const DistributerClass& without_channel) {
   if (recording.checkpoints > Duration{})
-    throw std::invalid_argument(
-        ".recording.checkpoints belongs to a Runner; a session is saved by checkpoint() where it stands");
+    throw InputError(".recording.checkpoints belongs to a Runner; a session is saved by checkpoint() where it stands");
   if (!recording.file.empty() && !without_channel.channels.empty())
-    throw std::invalid_argument(".recording: '" + without_channel.channels.front().name +
-                                "' is fed and has no channel, from which a replay would take its values; give it one "
-                                "in the graph, as in {channel: dune.motion}");
+    throw InputError(".recording: '" + without_channel.channels.front().name +
+                     "' is fed and has no channel, from which a replay would take its values; give it one "
+                     "in the graph, as in {channel: dune.motion}");
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "distributers/links/packet_link.h"
 #include "distributers/messages/javiator.h"
 #include "graph/analysis/policies.h"
+#include "graph/text/errors.h"
 #include "tests/graph/graph_of.h"
 
 namespace {
@@ -196,8 +197,8 @@ TEST_SUITE("distributers/registries") {
   TEST_CASE("a second entry of one name is refused") {
     Registries more = known();
     CHECK_THROWS_WITH_AS(more.links.add(*known().links.find("udp")), "there is a 'udp' already; names are unique",
-                         std::invalid_argument);
+                         InputError);
     CHECK_THROWS_WITH_AS(add_distributers(more.graph), "there is a 'JaviatorVehicle' already; names are unique",
-                         std::invalid_argument);
+                         InputError);
   }
 }

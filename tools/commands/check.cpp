@@ -8,11 +8,11 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <thread>
 
 #include "graph/language/key.h"
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 #include "runtime/files/atomic_file.h"
 #include "tools/commands/check/check_graph.h"
 #include "tools/commands/check/gantt.h"
@@ -83,7 +83,7 @@ void require_effect(const Command& command, const CheckOptions& options) {
     command.refuse({"--for"},
                    "says how long to measure, and a verdict holds for ever; add --measure or --write, or leave it out");
   if (options.measuring.write && std::find(options.files.begin(), options.files.end(), "-") != options.files.end())
-    throw std::invalid_argument("--write: '-' is stdin, which can't be written; name the graph's file");
+    throw InputError("--write: '-' is stdin, which can't be written; name the graph's file");
   if (options.files.size() > 1) command.refuse({"--svg"}, "names one picture for several files; check them one by one");
 }
 
@@ -193,7 +193,7 @@ int check_files(const CheckOptions& options) {
 }
 
 int write_graphs(const CheckOptions& options) {
-  if (options.folder.empty()) throw std::invalid_argument("--generate needs -o DIR, a folder for the graphs");
+  if (options.folder.empty()) throw InputError("--generate needs -o DIR, a folder for the graphs");
   std::filesystem::create_directories(options.folder);
   Generation generation = options.generation;
   generation.kind = options.generate;
@@ -202,9 +202,9 @@ int write_graphs(const CheckOptions& options) {
   };
   for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(options.count); ++i)
     if (const std::string path = path_of(generation.seed + i); std::filesystem::exists(path))
-      throw std::invalid_argument("'" + path +
-                                  "' is there, and --generate overwrites nothing; choose another folder or --seed, or "
-                                  "remove it");
+      throw InputError("'" + path +
+                       "' is there, and --generate overwrites nothing; choose another folder or --seed, or "
+                       "remove it");
   for (int i = 0; i < options.count; ++i, ++generation.seed) {
     AtomicFile file(path_of(generation.seed), Replaces::nothing);
     file.write(generate_graph(generation));
@@ -272,7 +272,7 @@ void add_check(CommandLine& line, int& exit_code) {
   command->callback([options, command, &exit_code] {
     require_effect(*command, *options);
     if (!options->duration.empty()) options->measuring.duration = length_of("--for", options->duration);
-    if (options->generate.empty() && options->files.empty()) throw std::invalid_argument("check needs a FILE, a graph");
+    if (options->generate.empty() && options->files.empty()) throw InputError("check needs a FILE, a graph");
     exit_code = options->generate.empty() ? check_files(*options) : write_graphs(*options);
   });
 }

@@ -7,6 +7,7 @@
 
 #include "graph/language/quantities.h"
 #include "graph/registry.h"
+#include "graph/text/errors.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/run/apart.h"
 #include "tools/commands/run/known_with.h"
@@ -43,15 +44,14 @@ Duration period_of(const VehicleCommandOptions& options, Duration grid, Duration
   const auto period = Duration(std::llround(std::min(nanoseconds, 1e18)));
   if (!(options.rate > 0) || std::abs(nanoseconds - static_cast<double>(period.count())) > 1e-6 * nanoseconds ||
       period < grid || period % grid != Duration{})
-    throw std::invalid_argument("--rate: " + number_text(options.rate) +
-                                " rows per second do not fall on the vehicle's "
-                                "steps of " +
-                                duration_text(grid) + "; it can be " +
-                                number_text(1e9 / static_cast<double>(grid.count())) + " divided by a whole number");
+    throw InputError("--rate: " + number_text(options.rate) +
+                     " rows per second do not fall on the vehicle's "
+                     "steps of " +
+                     duration_text(grid) + "; it can be " + number_text(1e9 / static_cast<double>(grid.count())) +
+                     " divided by a whole number");
   if (period > end && end > Duration{})
-    throw std::invalid_argument("--rate: " + number_text(options.rate) + " rows per second are one in " +
-                                duration_text(period) + ", and it is driven for " + duration_text(end) +
-                                "; choose more, or leave it out for 100");
+    throw InputError("--rate: " + number_text(options.rate) + " rows per second are one in " + duration_text(period) +
+                     ", and it is driven for " + duration_text(end) + "; choose more, or leave it out for 100");
   return period;
 }
 
@@ -59,7 +59,7 @@ Duration end_of(const VehicleCommandOptions& options, const std::vector<Commands
   Duration end = commands.empty() ? Duration{} : commands.back().time;
   if (options.duration.empty()) return end;
   end = duration_of("--for", options.duration);
-  if (end < Duration{}) throw std::invalid_argument("--for: '" + options.duration + "' is below zero");
+  if (end < Duration{}) throw InputError("--for: '" + options.duration + "' is below zero");
   return end;
 }
 
@@ -105,9 +105,9 @@ int serve_in_lockstep(const VehicleCommandOptions& options, const vehicles::Vehi
     else if (key == "key")
       sealed = distributers::read_key(text);
     else if (key != "type")
-      throw std::invalid_argument("--link lockstep has no --" + key + "; it needs --listen");
+      throw InputError("--link lockstep has no --" + key + "; it needs --listen");
   }
-  if (listen.empty()) throw std::invalid_argument("--link lockstep needs --listen, as in --listen 7010");
+  if (listen.empty()) throw InputError("--link lockstep needs --listen, as in --listen 7010");
   make_vehicle(options.made, vehicle_class, parameters, own_seed(options.made, vehicle_class),
                problems);  // what is wrong with it is reported at once
   return serve_vehicle_in_lockstep(
@@ -152,20 +152,19 @@ void require_effect(const Command& command, const VehicleCommandOptions& options
   const bool linked = !options.link.empty(), scripted = !options.script.empty();
   const bool in_lockstep = linked && options.link.front().second == "lockstep";
   if (linked && options.link.front().first != "type")
-    throw std::invalid_argument("--" + options.link.front().first + " needs --link");
+    throw InputError("--" + options.link.front().first + " needs --link");
   if (!options.describe && !linked && !scripted && options.csv.empty())
-    throw std::invalid_argument(
+    throw InputError(
         "say --describe; or --script and --csv: what to do, and where the motion goes; or --link: who steers it");
-  if (linked && scripted) throw std::invalid_argument("--script and --link: either a script steers it or a peer");
-  if (scripted && options.csv.empty()) throw std::invalid_argument("--script needs --csv, where the motion goes");
+  if (linked && scripted) throw InputError("--script and --link: either a script steers it or a peer");
+  if (scripted && options.csv.empty()) throw InputError("--script needs --csv, where the motion goes");
   if (in_lockstep)
     command.refuse({"--csv", "--rate"},
                    "has no place in lockstep: what a run does with it is reported there, as by jarol run --record");
   if (!scripted && !linked)
     command.refuse({"--csv", "--rate"}, "belongs to --script or --link, which move it; add one, or leave it out");
   if (options.csv.empty()) command.refuse({"--rate"}, "belongs to --csv, where the rows go");
-  if (options.bare && (!linked || in_lockstep))
-    throw std::invalid_argument("--bare needs --link, and one in real time");
+  if (options.bare && (!linked || in_lockstep)) throw InputError("--bare needs --link, and one in real time");
   if (!linked || in_lockstep) command.refuse({"--rt-priority"}, "belongs to --link in real time");
   if (in_lockstep) {
     command.refuse({"--for"},
@@ -183,14 +182,14 @@ int vehicle(const VehicleCommandOptions& options) {
   const vehicles::VehicleClass* const found = known.find(options.name);
   if (found == nullptr) {
     const std::vector<std::string> names = known.names();
-    throw std::invalid_argument("there is no vehicle '" + options.name + "'" + did_you_mean(options.name, names) +
-                                "; this build has: " + list_of(names));
+    throw InputError("there is no vehicle '" + options.name + "'" + did_you_mean(options.name, names) +
+                     "; this build has: " + list_of(names));
   }
   for (const auto& [key, text] : options.link)
     if (key == "announce" && found->make_announcement == nullptr)
-      throw std::invalid_argument("--announce: nobody looks for a " + found->name + ", which has no message for that");
+      throw InputError("--announce: nobody looks for a " + found->name + ", which has no message for that");
   if (options.bare && found->true_state == nullptr)
-    throw std::invalid_argument("--bare: there is no message of a " + found->name + "'s true state");
+    throw InputError("--bare: there is no message of a " + found->name + "'s true state");
   Problems problems;
   const Value parameters = read_parameters(options.made, *found, known, problems);
   require_apart({{"--script", options.script}, {"--parameters", options.made.parameters}}, {{"--csv", options.csv}});

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "graph/text/errors.h"
 #include "tasks/values/lauv.h"
 #include "tests/distributers/all_parts.h"
 
@@ -270,7 +271,7 @@ TEST_SUITE("distributers/session") {
     CHECK_THROWS_WITH_AS(session_of(counting, {.real_clock = true, .execution = "wcet"}),
                          ".execution belongs to the virtual clock; on the real one activations take the time that they "
                          "take",
-                         std::invalid_argument);
+                         InputError);
   }
 
   TEST_CASE("all that is wrong with a graph is one SpecError, as on the command line") {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "graph/text/errors.h"
 #include "runtime/execute/executor.h"
 #include "runtime/machine/thread_time.h"
 #include "tools/commands/run/crash_line.h"
@@ -39,8 +39,7 @@ Edit edit_of(const std::string& text, const TaskSpec& task, Duration wcet) {
   if (task.wcet) {
     const std::size_t at = offset_of(text, task.wcet->where);
     if (text[at] == '>' || text[at] == '|')
-      throw std::invalid_argument("the 'wcet' of task '" + task.name +
-                                  "' is a block of lines; write it on the line of its key");
+      throw InputError("the 'wcet' of task '" + task.name + "' is a block of lines; write it on the line of its key");
     const std::string quote = is_quote(text[at]) ? text.substr(at, 1) : "";
     return {at, scalar_length(text, at), quote + duration_text(wcet) + quote};
   }
@@ -63,7 +62,7 @@ Edit edit_of(const std::string& text, const TaskSpec& task, Duration wcet) {
 
 Measurement measure_tasks(Loaded& loaded, Duration end) {
   if (thread_time_between_readings() == Duration{})
-    throw std::runtime_error(
+    throw Unfinished(
         "this machine's clock of a thread's own time is too coarse to measure tasks; state their 'wcet' yourself");
   // a vehicle in lockstep is connected to; they do not finish, for what that keeps is for the next run
   for (const auto& channels : loaded.channels) channels->begin();
@@ -72,8 +71,7 @@ Measurement measure_tasks(Loaded& loaded, Duration end) {
   const CrashLine crash_line(*loaded.graph);
   executor.run_until(end);
   if (executor.report().stopped)
-    throw std::invalid_argument("nothing was measured, as a fault stopped the run: " +
-                                to_text(executor.report().faults.front()));
+    throw InputError("nothing was measured, as a fault stopped the run: " + to_text(executor.report().faults.front()));
   Measurement measured{end, {}, fault_report(executor.report())};
   for (std::size_t i = 0; i < loaded.graph->tasks.size(); ++i) {
     const Histogram& took = executor.team()->took(i);
@@ -101,14 +99,13 @@ std::string with_wcets(const std::string& text, const GraphSpec& spec, const Gra
     const Edit edit = edit_of(text, task, *wcet);
     const Location& where = task.wcet ? task.wcet->where : task.type->where;
     if (where.source == nullptr || where.source->text != text)
-      throw std::invalid_argument("the 'wcet' of task '" + task.name + "' does not come from the file itself");
+      throw InputError("the 'wcet' of task '" + task.name + "' does not come from the file itself");
     edits.push_back(edit);
   }
   std::sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.at > b.at; });
   for (std::size_t i = 1; i < edits.size(); ++i)
     if (edits[i].at == edits[i - 1].at)
-      throw std::invalid_argument(
-          "two tasks share one place of the file through an alias; write their 'wcet' yourself");
+      throw InputError("two tasks share one place of the file through an alias; write their 'wcet' yourself");
   std::string edited = text;
   for (const Edit& edit : edits) edited.replace(edit.at, edit.length, edit.text);
   return edited;

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <iostream>
-#include <stdexcept>
 
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 #include "runtime/files/atomic_file.h"
 #include "tools/commands/check/measure.h"
 
@@ -22,9 +22,9 @@ Duration measured_time(const MeasureOptions& options, const Loaded& loaded) {
 
 void require_in_process(const Loaded& loaded) {
   if (const Distributer* distributer = find_in_real_time(loaded))
-    throw std::invalid_argument("distributer '" + distributer->name +
-                                "' has a link to what goes on by itself, from which nothing comes while tasks are "
-                                "measured; choose a link in process, as simulation or script");
+    throw InputError("distributer '" + distributer->name +
+                     "' has a link to what goes on by itself, from which nothing comes while tasks are "
+                     "measured; choose a link in process, as simulation or script");
 }
 
 // A task of the measured graph, and what goes for it in the file.
@@ -95,7 +95,7 @@ void write_wcets(const std::string& file, const std::shared_ptr<const Source>& s
   }
   const std::string edited = with_wcets(source->text, in_file.spec, *in_file.graph, wcets);
   if (read_source(file)->text != source->text)
-    throw std::invalid_argument("'" + file + "' was changed while it was measured; nothing is written, measure again");
+    throw InputError("'" + file + "' was changed while it was measured; nothing is written, measure again");
   load_graph(std::make_shared<Source>(Source{file, edited}), overrides);
   AtomicFile whole(file, Replaces::all);
   whole.write(edited);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <numbers>
-#include <stdexcept>
 
 #include "distributers/session/execution.h"
 #include "graph/language/problems.h"
 #include "graph/model/condition.h"
+#include "graph/text/errors.h"
 #include "graph/text/escape.h"
 #include "runtime/execute/executor_run.h"
 #include "tools/commands/run/interrupt.h"
@@ -20,8 +20,8 @@ namespace {
 constexpr std::string_view example = "; write it as in 'at=30s set=tasks.depth.parameters.kp=0.2'";
 
 WhatIf parse_what_if(const std::string& words) {
-  const auto fail = [&](const std::string& wrong) -> std::invalid_argument {
-    return std::invalid_argument("--what-if: '" + words + "' " + wrong + std::string(example));
+  const auto fail = [&](const std::string& wrong) -> InputError {
+    return InputError("--what-if: '" + words + "' " + wrong + std::string(example));
   };
   std::vector<std::size_t> sets;
   for (std::size_t at = words.find(" set="); at != std::string::npos; at = words.find(" set=", at + 1))
@@ -48,8 +48,8 @@ RunColumn::Reached shown(std::string title, const Leaf& leaf, const void* value,
 
 std::vector<WhatIf> parse_what_ifs(const std::vector<std::string>& words) {
   if (words.size() > WhatIf::max_count)
-    throw std::invalid_argument("--what-if: there are " + std::to_string(words.size()) + " of them, and at most " +
-                                std::to_string(WhatIf::max_count) + " stand side by side");
+    throw InputError("--what-if: there are " + std::to_string(words.size()) + " of them, and at most " +
+                     std::to_string(WhatIf::max_count) + " stand side by side");
   std::vector<WhatIf> all;
   for (const std::string& each : words) all.push_back(parse_what_if(each));
   return all;
@@ -107,12 +107,12 @@ void WhatIfs::run(RunSinks& sinks, RunFiles& files) {
   if (what_ifs_.empty()) return;
   sinks.catch_up();
   if (const std::string failure = sinks.why_not_all(*kept_); !failure.empty())
-    throw std::runtime_error("what-ifs are not run, as the run is not kept to compare them with: " + failure);
+    throw Unfinished("what-ifs are not run, as the run is not kept to compare them with: " + failure);
   for (std::size_t i = 0; i < what_ifs_.size(); ++i) {
     if (!what_ifs_[i].past) continue;  // which was said
     if (Interruptible::signal() != 0)
-      throw std::runtime_error("what if " + to_text(what_ifs_[i]) + " is not run, as " +
-                               Ending::of_signal(Interruptible::signal()).reason);
+      throw Unfinished("what if " + to_text(what_ifs_[i]) + " is not run, as " +
+                       Ending::of_signal(Interruptible::signal()).reason);
     const auto beside = files.beside("what if " + std::to_string(i + 1));
     outcomes_.push_back(run(what_ifs_[i], beside.get()));
   }
@@ -156,10 +156,10 @@ WhatIfOutcome WhatIfs::run(const WhatIf& what_if, RecordSink* beside) const {
   const RunEnd end = attend(
       attended, [] {}, Interruptible::wish);
   if (end.failure) std::rethrow_exception(end.failure);
-  if (end.hangs) throw std::runtime_error("what if " + to_text(what_if) + ": a task does not end");
+  if (end.hangs) throw Unfinished("what if " + to_text(what_if) + ": a task does not end");
   // what there is of it is no outcome
   if (end.ending.cause == Ending::Cause::signal)
-    throw std::runtime_error("what if " + to_text(what_if) + " is not run to its end, as " + end.ending.reason);
+    throw Unfinished("what if " + to_text(what_if) + " is not run to its end, as " + end.ending.reason);
   other.disconnect();
   other.sinks().close();
   const std::vector<TrueState> truth = find_true_states(other.graph(), other.channels());

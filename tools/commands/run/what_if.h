@@ -22,7 +22,7 @@ struct WhatIf {
   std::optional<Checkpoint> past;  // of the run, once it has come there
 };
 
-/// Of "at=30s set=tasks.depth.parameters.kp=0.2", with any number of `set`. Throws std::invalid_argument.
+/// Of "at=30s set=tasks.depth.parameters.kp=0.2", with any number of `set`. Throws InputError.
 std::vector<WhatIf> parse_what_ifs(const std::vector<std::string>& words);
 /// As people read it: "at 30 s tasks.depth.parameters.kp=0.2".
 std::string to_text(const WhatIf& what_if);
@@ -55,7 +55,7 @@ struct WhatIfOutcome {
 /// All that are asked for.
 class WhatIfs {
  public:
-  /// Throws std::invalid_argument.
+  /// Throws InputError.
   explicit WhatIfs(const std::vector<std::string>& words) : what_ifs_(parse_what_ifs(words)) {}
 
   /// The run that they begin with, until then. Throws SpecError where one is no graph with what it sets.

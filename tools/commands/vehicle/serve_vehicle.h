@@ -34,7 +34,7 @@ int serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehi
                   const RealTimeOptions& real_time = {});
 
 /// On the logical clocks of those who connect, one after the other, each with a vehicle of its own from the start;
-/// until Ctrl-C. Throws std::runtime_error if it can't listen there.
+/// until Ctrl-C. Throws InputError if it can't listen there.
 int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const distributers::Address& listen,
                               const std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)>& make,
                               const std::optional<distributers::SecretKey>& key = {});
