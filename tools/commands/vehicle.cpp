@@ -11,6 +11,7 @@
 #include "tools/commands/commands.h"
 #include "tools/commands/run/apart.h"
 #include "tools/commands/run/known_with.h"
+#include "tools/commands/vehicle/link_options.h"
 #include "tools/commands/vehicle/made_vehicle.h"
 #include "tools/commands/vehicle/motion_file.h"
 #include "tools/commands/vehicle/open_loop.h"
@@ -228,24 +229,10 @@ void add_vehicle(CommandLine& line, int& exit_code) {
   command->add_option("--for", options->duration, "How long, as in 10s; default: to the last row of the script");
   command->add_option("--seed", options->made.seed, "Seed of the sensors' noise; default 0");
   command->add_flag("--bare", options->bare, "Link: send the true state only, as SimulatedState of a submarine");
-  struct LinkKey {
-    const char *key, *text;
-  };
   std::vector<std::string> links;
   for (const distributers::LinkType& type : built_in().links.entries())
     if (type.make_link) links.push_back(type.name);
   links.insert(links.end(), {"tcp", "lockstep"});
-  const LinkKey link_keys[] = {
-      {"listen", "Link: port to listen at, with an address where not the loopback, as in 6002"},
-      {"peer", "Link: address and port of the other end, as in 127.0.0.1:7002"},
-      {"device", "Link: the serial line, as in /dev/ttyS0"},
-      {"baud", "Link: rate of the serial line; default 115200"},
-      {"key", "Link: file of the key that both ends have"},
-      {"silence", "Link: of the peer, after which another may take its place; default 5 s"},
-      {"announce", "Link: where it announces itself, as in 127.0.0.1:30100-30104; default: nowhere"},
-      {"id",
-       "Link: the sender's id in what is sent, in hex or decimal, as in 0x00D1; packets to another id are dropped"},
-  };
   command
       ->add_option(
           "--link",
@@ -255,10 +242,10 @@ void add_vehicle(CommandLine& line, int& exit_code) {
           "Run steered over a link: " + list_of(links) +
               "; tcp is a server, or with --peer a client; in lockstep on the runner's clock, else in real time")
       ->one_of(links);
-  for (const LinkKey& key : link_keys)
+  for (const LinkOption& option : link_options(built_in().links))
     command->add_option(
-        std::string("--") + key.key,
-        [options, name = key.key](const std::string& text) { options->link.emplace_back(name, text); }, key.text);
+        "--" + option.key,
+        [options, key = option.key](const std::string& text) { options->link.emplace_back(key, text); }, option.text);
   command
       ->add_option("--rt-priority", options->priority,
                    "Link in real time: SCHED_FIFO priority; default: the ordinary scheduler")
