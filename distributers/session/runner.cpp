@@ -24,7 +24,9 @@ void require_clock(const RunOptions& options, const Loaded& loaded) {
 
 // What the virtual clock alone has.
 void require_options_of_clock(const RunOptions& options) {
-  require_workers(options.workers);
+  if (options.workers < 1 || options.workers > max_workers)
+    throw NotExecutable("a run has 1 to " + std::to_string(max_workers) + " workers, not " +
+                        std::to_string(options.workers));
   if (!options.real_clock) return;
   if (options.workers > 1)
     throw NotExecutable(options.words.workers + " belongs to the virtual clock; the real one goes by 'platform'");

@@ -54,13 +54,10 @@ Session::Run::Run(const distributers::Registries& known, std::shared_ptr<const S
     : note_(options.note ? options.note : no_notes) {
   if (source == nullptr) throw NoSource("a session is of a graph's text; the source is null");
   const DefaultFloatingPoint arithmetic;  // of vehicles and parameters, and of threads that are started here
-  require_workers(options.workers);
   const Overrides overrides{options.profile, options.set, options.no_plugins};
   Loaded loaded =
       feed_in_place_of_links(load_graph(source, known, overrides, options.seed, note_, options.fed), options.fed);
   if (!options.real_clock) require_no_clock(loaded);
-  if (options.real_clock && options.workers > 1)
-    throw NotExecutable("workers belong to the virtual clock; the real one goes by 'platform'");
   require_recordable(options.recording, without_channel_);
   observed = std::make_unique<Observed>(*loaded.graph, outputs_of(*loaded.graph));
   runner_.emplace(std::move(loaded), RunOptions{.end = Duration::max(),

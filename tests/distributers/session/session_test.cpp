@@ -267,7 +267,7 @@ TEST_SUITE("distributers/session") {
                           .note = [&](const std::string& note) { notes.push_back(note); }});
     CHECK(notes == std::vector<std::string>{});
     CHECK_THROWS_WITH_AS(session_of(counting, {.workers = 2, .real_clock = true}),
-                         "workers belong to the virtual clock; the real one goes by 'platform'", NotExecutable);
+                         ".workers belongs to the virtual clock; the real one goes by 'platform'", NotExecutable);
     CHECK_THROWS_WITH_AS(session_of(counting, {.real_clock = true, .execution = "wcet"}),
                          ".execution belongs to the virtual clock; on the real one activations take the time that they "
                          "take",
