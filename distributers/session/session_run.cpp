@@ -6,6 +6,7 @@
 
 #include "graph/floating_point.h"
 #include "graph/language/problems.h"
+#include "graph/text/article.h"
 #include "graph/text/errors.h"
 
 namespace jarol {
@@ -188,7 +189,8 @@ void Session::Run::feed(std::string_view name, const Type& type, const void* val
     if (channel != c.name) names.push_back(channel);
     if (name != c.name && name != channel) continue;
     if (!same_type(*c.type, type))
-      throw WrongType("'" + std::string(name) + "' takes a " + c.type->name + ", not a " + type.name);
+      throw WrongType("'" + std::string(name) + "' takes " + with_article(c.type->name) + ", not " +
+                      with_article(type.name));
     if (c.distributer && fed_[*c.distributer] != nullptr) return fed_[*c.distributer]->feed(c.channel, value);
     const std::string who = c.distributer ? graph.distributers[*c.distributer].name : c.name;
     throw NotFed("'" + std::string(name) +

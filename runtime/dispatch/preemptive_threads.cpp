@@ -118,7 +118,7 @@ void PreemptiveThreads::begin(std::span<const analysis::TaskThread> threads) {
       });
     } catch (const std::system_error& error) {
       end();
-      throw Unfinished("there is no thread to be had for tasks: " + std::string(error.what()));
+      throw Unfinished("no thread can be started for tasks: " + std::string(error.what()));
     }
   }
   for (auto& of_thread : prepared)

@@ -121,7 +121,7 @@ void JarolCore::begin(Part& part, Signal& signal, const std::function<void()>& p
       Futex::wake_all(part.ended);
     });
   } catch (const std::system_error& error) {
-    fail(std::make_exception_ptr(Unfinished("there is no thread to be had: " + std::string(error.what()))));
+    fail(std::make_exception_ptr(Unfinished("no thread can be started: " + std::string(error.what()))));
   }
 }
 

@@ -97,7 +97,7 @@ struct Checked {
 };
 
 // What was asked for and is not there.
-void note_what_lacks(const CheckReport& report, const CheckOptions& options, std::vector<std::string>& notes) {
+void note_what_is_missing(const CheckReport& report, const CheckOptions& options, std::vector<std::string>& notes) {
   if (!options.svg.empty() && gantt_svg(*report.graph, report.result).empty())
     notes.push_back("no picture in '" + options.svg + "', as it needs a 'wcet' of every task");
   if (options.sensitivity && !report.sensitivity)
@@ -124,7 +124,7 @@ void check_file(const std::string& file, const CheckOptions& options, Checked& c
   report.remedies = find_remedies(read_source(file), overrides, loaded.known->graph, report, budget);
   // what was written holds by now
   if (!options.measuring.write) report.measured = std::move(measured);
-  note_what_lacks(report, options, checked.notes);
+  note_what_is_missing(report, options, checked.notes);
   if (const std::string drawn = gantt_svg(*loaded.graph, report.result); !options.svg.empty() && !drawn.empty()) {
     if (options.svg == "-") {
       checked.picture = drawn;

@@ -170,7 +170,7 @@ TEST_SUITE("distributers/session") {
     Session session = session_of(adding, {.fed = {"a", "neptus"}});
     CHECK_THROWS_WITH_AS(session.value<float>("sum.out"), "'sum.out' is a double, not a float", WrongType);
     CHECK_THROWS_WITH_AS(session.value<double>("goal"), "'goal' is a Setpoint, not a double", WrongType);
-    CHECK_THROWS_WITH_AS(session.feed("a", 1), "'a' takes a double, not a int32", WrongType);
+    CHECK_THROWS_WITH_AS(session.feed("a", 1), "'a' takes a double, not an int32", WrongType);
     CHECK_THROWS_WITH_AS(session.feed("neptus.setpoint", tasks::Motion{}),
                          "'neptus.setpoint' takes a Setpoint, not a Motion", WrongType);
   }

@@ -306,7 +306,7 @@ connections: [c.out -> to_plant]
       try {
         core.run_for(1h);
       } catch (const std::runtime_error& thrown) { error = thrown.what(); }
-      _exit(error == "there is no thread to be had: Resource temporarily unavailable" ? 0 : 1);
+      _exit(error == "no thread can be started: Resource temporarily unavailable" ? 0 : 1);
     }
     int status = -1;
     REQUIRE(waitpid(child, &status, 0) == child);

@@ -114,7 +114,7 @@ connections: [a.out -> b.in]
           "graph: t\ntasks:\n  a: {type: Counter, period: 1ms}\n  b: {type: Counter, wcet: 1us, period: 1ms}\n");
   }
 
-  TEST_CASE("check --write writes what lacks or is too short, keeps what is longer, and says so") {
+  TEST_CASE("check --write writes what is missing or too short, keeps what is longer, and says so") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", file_text);
     const auto reported = command::run_jarol("check --write --for 1s --margin 50 " + file, "2>&1 >/dev/null").output;
