@@ -1,10 +1,11 @@
 // A list of entries with a name each, as of vehicles, link types or policies.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "graph/text/errors.h"
 
 namespace jarol {
 
@@ -12,10 +13,10 @@ namespace jarol {
 template <class Entry>
 class NamedList {
  public:
-  /// Throws std::invalid_argument if there is one of that name.
+  /// Throws InputError if there is one of that name.
   void add(Entry entry) {
     if (find(entry.name) != nullptr)
-      throw std::invalid_argument("there is a '" + std::string(entry.name) + "' already; names are unique");
+      throw InputError("there is a '" + std::string(entry.name) + "' already; names are unique");
     entries_.push_back(std::move(entry));
   }
 

@@ -1,8 +1,9 @@
 #include "graph/registry.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
+
+#include "graph/text/errors.h"
 
 namespace jarol {
 namespace {
@@ -12,7 +13,7 @@ void insert_by_name(std::vector<C>& classes, C added) {
   const auto at =
       std::lower_bound(classes.begin(), classes.end(), added, [](const C& a, const C& b) { return a.name < b.name; });
   if (at != classes.end() && at->name == added.name)
-    throw std::invalid_argument("there is a '" + added.name + "' already; names are unique");
+    throw InputError("there is a '" + added.name + "' already; names are unique");
   classes.insert(at, std::move(added));
 }
 
@@ -20,8 +21,8 @@ void insert_by_name(std::vector<C>& classes, C added) {
 void require_copyable(const std::string& whose, const std::string& name, const Type& type) {
   constexpr std::size_t largest = std::size_t{1} << 30;
   if (type.size > largest)
-    throw std::invalid_argument(whose + " '" + name + "' (" + type.name + ") has " + std::to_string(type.size) +
-                                " bytes; values have at most 1GiB");
+    throw InputError(whose + " '" + name + "' (" + type.name + ") has " + std::to_string(type.size) +
+                     " bytes; values have at most 1GiB");
 }
 
 template <class C>

@@ -37,7 +37,7 @@ struct DistributerClass {
   bool is_vehicle = false;           // else an operator
   const Type* parameters = nullptr;  // a struct; null: it has none
 
-  /// From a value of the type of parameters. Throws std::invalid_argument if there can be none with them. Null: it
+  /// From a value of the type of parameters. Throws InputError if there can be none with them. Null: it
   /// speaks no messages, and can be played from a script only.
   std::unique_ptr<distributers::AnyDistributer> (*make)(const void* parameters) = nullptr;
   /// That it speaks; null as `make`.
@@ -46,7 +46,7 @@ struct DistributerClass {
 
 class Registry {
  public:
-  /// Throws std::invalid_argument if there is one of that name, or it has values of more than 1 GiB.
+  /// Throws InputError if there is one of that name, or it has values of more than 1 GiB.
   void add(TaskClass task);
   void add(DistributerClass distributer);
   void add(const Policy& policy) { policies_.add(policy); }

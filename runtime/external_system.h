@@ -48,7 +48,7 @@ class ExternalSystem {
  public:
   virtual ~ExternalSystem() = default;
 
-  /// Before the first instant of a run. Throws std::runtime_error if there is no way to the external system.
+  /// Before the first instant of a run. Throws InputError if there is no way to the external system.
   virtual void begin() {}
   /// After the last instant; what is under way is completed. Throws std::runtime_error if something can't be kept for
   /// the next run; a second call does nothing.
@@ -96,7 +96,7 @@ class ExternalSystem {
   /// Gives the channel a value at the present instant.
   virtual void hand_over(std::size_t channel, const void* value) = 0;
 
-  /// Sends what was handed over, where it would wait for the next instant. Throws std::runtime_error if it can't.
+  /// Sends what was handed over, where it would wait for the next instant. Throws Unfinished if it can't.
   virtual void flush() {}
 
   /// From the next instant on the vehicle is brought to rest, as `at_end` of the graph states; before `reach`, once.

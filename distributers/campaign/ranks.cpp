@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <stdexcept>
 
+#include "graph/text/errors.h"
 #include "graph/values/archive.h"
 
 namespace jarol::campaign {
@@ -80,7 +80,7 @@ std::unique_ptr<Messages> messages_of_mpirun() {
     const auto make = reinterpret_cast<MakeMessages>(dlsym(library, "jarol_mpi_messages"));
     if (make != nullptr) return std::unique_ptr<Messages>(make());
   }
-  throw std::runtime_error(
+  throw InputError(
       "mpirun has started this, and this jarol talks no MPI; build it where libopenmpi-dev is installed, or use "
       "--shard");
 }
@@ -111,7 +111,7 @@ void FirstRank::gather(const std::string& campaign) {
     else if (request.campaign != campaign)
       wrong = who + "has another graph, other files or options, or another build of jarol";
   }
-  if (!wrong.empty()) throw std::runtime_error(wrong);
+  if (!wrong.empty()) throw InputError(wrong);
 }
 
 void FirstRank::serve(Work& work) {

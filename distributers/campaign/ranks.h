@@ -10,7 +10,7 @@
 
 namespace jarol::campaign {
 
-/// Those that mpirun has started with this one; null: it has not. Throws std::runtime_error where this program was
+/// Those that mpirun has started with this one; null: it has not. Throws InputError where this program was
 /// built or installed without MPI.
 std::unique_ptr<Messages> messages_of_mpirun();
 
@@ -23,7 +23,7 @@ class FirstRank {
   FirstRank(const FirstRank&) = delete;
   FirstRank& operator=(const FirstRank&) = delete;
 
-  /// Waits until all others are ready for the campaign, too. Throws std::runtime_error: one can't, or is ready for
+  /// Waits until all others are ready for the campaign, too. Throws InputError: one can't, or is ready for
   /// another one.
   void gather(const std::string& campaign);
   /// From now on, on a thread of its own, gives them runs until there are no more.

@@ -12,6 +12,7 @@
 
 #include "distributers/campaign/result.h"
 #include "distributers/campaign/statement.h"
+#include "graph/text/errors.h"
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -19,13 +20,13 @@ struct sqlite3_stmt;
 namespace jarol::campaign {
 
 /// The file can't be read or written, or is none of a campaign.
-struct ResultsError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct ResultsError : Unfinished {
+  using Unfinished::Unfinished;
 };
 
 /// It has the results of another campaign.
-struct OtherCampaign : std::invalid_argument {
-  using std::invalid_argument::invalid_argument;
+struct OtherCampaign : InputError {
+  using InputError::InputError;
 };
 
 /// Consecutive runs, by index: from `begin` to before `end`.

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <optional>
-#include <stdexcept>
 
 #include "distributers/campaign/graphs.h"
 #include "distributers/campaign/oversight.h"
 #include "distributers/campaign/result.h"
+#include "graph/text/errors.h"
 
 namespace jarol::campaign {
 
@@ -14,8 +14,8 @@ namespace jarol::campaign {
 std::string why_not_in_campaign(const PlannedGraph& graph, std::optional<Duration> length);
 
 /// A run needs a file that the campaign has not read before its first run.
-struct UnreadFile : std::invalid_argument {
-  using std::invalid_argument::invalid_argument;
+struct UnreadFile : InputError {
+  using InputError::InputError;
 };
 
 /// Whatever goes wrong in the run is its result. None: it was to stop before its end. Throws UnreadFile, and

@@ -12,11 +12,11 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
-#include <stdexcept>
 
 #include "distributers/guardian/guardian_process.h"
 #include "distributers/guardian/stamped_packet.h"
 #include "distributers/guardian/words.h"
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 namespace {
@@ -61,7 +61,7 @@ struct SpawnOptions {
 Guardian::Guardian(const std::string& program) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
-    throw std::runtime_error(std::string("no pair of sockets: ") + std::strerror(errno));
+    throw Unfinished(std::string("no pair of sockets: ") + std::strerror(errno));
   socket_ = Descriptor(ends[0]);
   // not where it has to be: a descriptor that is moved to its own place would be closed there
   const Descriptor there(fcntl(ends[1], F_DUPFD_CLOEXEC, guardian_socket + 1));
@@ -74,7 +74,7 @@ Guardian::Guardian(const std::string& program) {
       posix_spawn(&process_, program.c_str(), &options.actions, &options.attributes, words.data(), environ);
   if (failed == 0) return;
   process_ = -1;
-  throw std::runtime_error("'" + program + "' does not start: " + std::strerror(failed));
+  throw Unfinished("'" + program + "' does not start: " + std::strerror(failed));
 }
 
 Guardian::~Guardian() { end(); }
@@ -97,7 +97,7 @@ void Guardian::await_ready(std::optional<int> priority) {
   said_all_ &= say(socket_.get(), {Word::ready, 0}, bytes_of(urgency));
   std::array<std::byte, sizeof(Sentence)> room;
   if (!said_all_ || !is_ready(socket_.get(), begin_patience) || !hear(socket_.get(), room))
-    throw std::runtime_error("its process does not answer");
+    throw Unfinished("its process does not answer");
 }
 
 void Guardian::arm() const { say(socket_.get(), {Word::armed, 0}); }

@@ -26,7 +26,7 @@ inline constexpr const char* guardian_name = "jarol-guardian";
 class Guardian {
  public:
   /// Begins the process: `program` again, called as `guardian_name`, of which main makes run_guardian. Throws
-  /// std::runtime_error with the reason.
+  /// Unfinished with the reason.
   explicit Guardian(const std::string& program = "/proc/self/exe");
   /// Without `close` the program is taken for crashed, if it was armed.
   ~Guardian();
@@ -38,7 +38,7 @@ class Guardian {
   Holder* add(const messages::MessageSet& set, const std::string& text, std::span<const std::vector<std::byte>> packets,
               const GuardianKey* key = nullptr);
   /// Waits until all of this is there. The guardian takes that priority of SCHED_FIFO, if it may. Throws
-  /// std::runtime_error if it is not to be had.
+  /// Unfinished if it is not to be had.
   void await_ready(std::optional<int> priority = {});
 
   /// It has ended, though it should not have.

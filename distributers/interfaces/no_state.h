@@ -1,14 +1,14 @@
 // Plain C++17, as units that include Simbody include it.
 #pragma once
 
-#include <stdexcept>
+#include "graph/text/errors.h"
 
 namespace jarol::vehicles {
 
 /// A vehicle's motion has left what numbers can express; it can't be stepped any more.
-class NoState : public std::runtime_error {
+class NoState : public Unfinished {
  public:
-  using std::runtime_error::runtime_error;
+  using Unfinished::Unfinished;
 };
 
 }  // namespace jarol::vehicles

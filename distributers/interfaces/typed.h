@@ -24,7 +24,7 @@ class Typed final : public AnyDistributer {
   using Out = decltype(detail::out_of<D>());
 
   Typed() : Typed(Param{}) {}
-  /// Throws what the distributer throws, std::invalid_argument if there can be none with them.
+  /// Throws what the distributer throws, InputError if there can be none with them.
   explicit Typed(const Param& parameters) : distributer_(make(parameters)) {}
 
   D& operator*() { return distributer_; }

@@ -58,7 +58,7 @@ class JaviatorOperator {
                   send<&Out::report>(&O::send_report));
   }
 
-  /// Throws std::invalid_argument if the trim file is none.
+  /// Throws InputError if the trim file is none.
   explicit JaviatorOperator(const Param& parameters = {});
 
   void peer_changed() { hello_due_ = true; }

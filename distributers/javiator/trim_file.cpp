@@ -9,11 +9,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
-#include <stdexcept>
 
 #include "graph/language/quantities.h"
 #include "graph/language/read_source.h"
 #include "graph/language/source_set.h"
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 namespace {
@@ -24,9 +24,9 @@ double read_line(std::istream& file, const std::string& name, const std::string&
   double number = 0;
   if (!std::getline(file, line) || !line.starts_with(name + " ") ||
       !parse_number(std::string_view(line).substr(name.size() + 1), "rad", number).empty() || std::abs(number) > 1)
-    throw std::invalid_argument("'" + path +
-                                "' is no trim file; it needs a line 'roll' and a line 'pitch', each with a "
-                                "number of rad from -1 to 1");
+    throw InputError("'" + path +
+                     "' is no trim file; it needs a line 'roll' and a line 'pitch', each with a "
+                     "number of rad from -1 to 1");
   return number;
 }
 
@@ -58,7 +58,7 @@ void write_trim(const std::string& path, const Trim& trim) {
   if (descriptor >= 0) ::close(descriptor);
   if (written && std::rename(beside.c_str(), path.c_str()) == 0) return;
   if (descriptor >= 0) std::remove(beside.c_str());
-  throw std::runtime_error("can't write the trim to '" + path + "'");
+  throw InputError("can't write the trim to '" + path + "'");
 }
 
 }  // namespace jarol::distributers

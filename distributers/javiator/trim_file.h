@@ -12,10 +12,10 @@ struct Trim {
   friend bool operator==(const Trim&, const Trim&) = default;
 };
 
-/// The trim that the file keeps; none, where there is no such file. Throws std::invalid_argument if it is no trim file.
+/// The trim that the file keeps; none, where there is no such file. Throws InputError if it is no trim file.
 Trim read_trim(const std::string& path);
 
-/// Replaces the file as a whole. Throws std::runtime_error if that can't be.
+/// Replaces the file as a whole. Throws InputError if that can't be.
 void write_trim(const std::string& path, const Trim& trim);
 
 }  // namespace jarol::distributers

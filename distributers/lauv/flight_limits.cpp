@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 namespace {
@@ -14,27 +14,26 @@ constexpr double rounding = 1 + 1e-6;  // what is written is a float
 void check_level(const FlightLimits& limits, tasks::Vertical from, double level, std::string_view what) {
   if (from == tasks::Vertical::depth) {
     if (const double max = limits.max_depth - limits.margin; !(level <= max * rounding))
-      throw std::invalid_argument(fmt::format("{} is {:.6g} m; depths are at most {:.6g} m", what, level, max));
+      throw InputError(fmt::format("{} is {:.6g} m; depths are at most {:.6g} m", what, level, max));
   } else if (const double min = limits.min_altitude + limits.margin; !(level * rounding >= min)) {
-    throw std::invalid_argument(fmt::format("{} is {:.6g} m; altitudes are at least {:.6g} m", what, level, min));
+    throw InputError(fmt::format("{} is {:.6g} m; altitudes are at least {:.6g} m", what, level, min));
   }
 }
 
 void check_speed(const FlightLimits& limits, double speed) {
   if (speed * rounding >= limits.min_speed && speed <= limits.max_speed * rounding) return;
-  throw std::invalid_argument(
+  throw InputError(
       fmt::format("speed is {:.6g} m/s; speeds are {:.6g} to {:.6g} m/s", speed, limits.min_speed, limits.max_speed));
 }
 
 void check_percentage(const FlightLimits& limits, double percentage) {
   if (percentage >= 100 * limits.min_thrust && percentage <= 100) return;
-  throw std::invalid_argument(
-      fmt::format("speed is {:.6g} %; these are {:.6g} to 100 %", percentage, 100 * limits.min_thrust));
+  throw InputError(fmt::format("speed is {:.6g} %; these are {:.6g} to 100 %", percentage, 100 * limits.min_thrust));
 }
 
 void check_radius(const FlightLimits& limits, double radius, std::string_view what) {
   if (!(radius <= limits.max_radius * rounding))
-    throw std::invalid_argument(fmt::format("{} is {:.6g} m; it is at most {:.6g} m", what, radius, limits.max_radius));
+    throw InputError(fmt::format("{} is {:.6g} m; it is at most {:.6g} m", what, radius, limits.max_radius));
 }
 
 }  // namespace jarol::distributers

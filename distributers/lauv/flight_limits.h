@@ -30,7 +30,7 @@ struct FlightLimits {
   }
 };
 
-/// Throw std::invalid_argument that says what is beyond a limit, and what would be within. `what` names the value.
+/// Throw InputError that says what is beyond a limit, and what would be within. `what` names the value.
 void check_level(const FlightLimits& limits, tasks::Vertical from, double level, std::string_view what);
 void check_speed(const FlightLimits& limits, double speed);            // m/s
 void check_percentage(const FlightLimits& limits, double percentage);  // of thrust

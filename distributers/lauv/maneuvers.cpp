@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "distributers/messages/imc.h"
 #include "distributers/messages/payload.h"
 #include "graph/math/geometry.h"
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 namespace imc = messages::imc;
@@ -20,7 +20,7 @@ using tasks::Leg;
 constexpr double min_step = 1e-3;  // m across, of a curve of rows
 constexpr std::size_t max_legs = 1000;
 
-[[noreturn]] void refuse(const std::string& text) { throw std::invalid_argument(text); }
+[[noreturn]] void refuse(const std::string& text) { throw InputError(text); }
 
 // Where maneuvers are flown.
 struct Sea {

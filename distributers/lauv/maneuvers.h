@@ -36,13 +36,13 @@ struct Maneuver {
 /// Of a circle where the maneuver names none, in m.
 constexpr double default_radius = 10;
 
-/// In m from the origin. Throws std::invalid_argument for a place that is none, or too far away to be meant.
+/// In m from the origin. Throws InputError for a place that is none, or too far away to be meant.
 void set_place(tasks::Leg& leg, double latitude, double longitude, const Origin& origin);
-/// Throw std::invalid_argument for what can't be commanded. `name`: of the depth or altitude.
+/// Throw InputError for what can't be commanded. `name`: of the depth or altitude.
 void set_level(tasks::Leg& leg, double z, std::uint8_t units, const FlightLimits& limits, const char* name = "z");
 void set_speed(tasks::Leg& leg, double speed, std::uint8_t units, const FlightLimits& limits);
 
-/// Throws std::invalid_argument that says what can't be flown.
+/// Throws InputError that says what can't be flown.
 Maneuver make_maneuver(const messages::InlineMessage& message, const Origin& origin, const FlightLimits& limits = {});
 
 /// Does it go by where the vehicle is? One that comes up for a fix does not.

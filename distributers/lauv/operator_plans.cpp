@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
-#include <stdexcept>
 
 #include "distributers/lauv/messages.h"
 #include "distributers/lauv/operator.h"
 #include "distributers/messages/payload.h"
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 namespace {
@@ -68,7 +68,7 @@ std::string LauvOperator::find_unflyable(const imc::PlanSpecification& plan, con
     const Plan made = make_plan(plan, origin, parameters_.limits);
     for (const Maneuver& each : made.maneuvers)
       if (!has_altimeter() && needs_altitude(each)) return fmt::format("maneuver '{}': {}", each.name, no_altimeter);
-  } catch (const std::invalid_argument& error) { return error.what(); }
+  } catch (const InputError& error) { return error.what(); }
   return "";
 }
 
@@ -105,7 +105,7 @@ std::string LauvOperator::start_plan(const imc::PlanControl& request, std::uint1
     if (!is_loaded)
       if (std::string why_not = load_plan(request, who); !why_not.empty()) return why_not;
     return execute(make_plan(*loaded_, origin_, parameters_.limits));
-  } catch (const std::invalid_argument& error) { return error.what(); }
+  } catch (const InputError& error) { return error.what(); }
 }
 
 // In place of whatever goes on.
@@ -183,9 +183,9 @@ void LauvOperator::reference(const imc::Reference& reference, const From& from) 
   const ReferenceFollower* const follower = plan_.follower();
   try {
     if (follower != nullptr && follower->obeys(source, entity) && !has_altimeter() && needs_altitude(reference))
-      throw std::invalid_argument(std::string(no_altimeter));
+      throw InputError(std::string(no_altimeter));
     if (plan_.follow(reference, source, entity, now_, origin_, motion_)) follow_plan();
-  } catch (const std::invalid_argument& error) { refuse(std::string("a reference is left out: ") + error.what()); }
+  } catch (const InputError& error) { refuse(std::string("a reference is left out: ") + error.what()); }
 }
 
 void LauvOperator::teleoperation_done(const imc::TeleoperationDone&) {
@@ -224,7 +224,7 @@ void LauvOperator::vehicle_command(const imc::VehicleCommand& command, const Fro
   if (command.command == imc::VehicleCommand::Command::EXEC_MANEUVER) {
     try {
       reply.info = execute(make_plan("", command.maneuver, origin_, parameters_.limits));
-    } catch (const std::invalid_argument& error) { reply.info = error.what(); }
+    } catch (const InputError& error) { reply.info = error.what(); }
   } else if (command.command == imc::VehicleCommand::Command::STOP_MANEUVER) {
     demand_stop();
   } else {

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "distributers/messages/payload.h"
 #include "graph/language/problems.h"
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 namespace imc = messages::imc;
@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t max_maneuvers = 1000;
 constexpr std::size_t max_plan_legs = 10'000;  // looked through each second, for the time that is left
 
-[[noreturn]] void refuse_plan(const std::string& text) { throw std::invalid_argument(text); }
+[[noreturn]] void refuse_plan(const std::string& text) { throw InputError(text); }
 
 // Of a list of inline messages, each an M.
 template <class M>
@@ -89,7 +89,7 @@ Plan make_plan(const imc::PlanSpecification& plan, const Origin& origin, const F
       refuse_plan(fmt::format("two maneuvers are named '{}'", name));
     try {
       made.maneuvers.push_back(make_maneuver(each.data, origin, limits));
-    } catch (const std::invalid_argument& error) { refuse_plan(fmt::format("maneuver '{}': {}", name, error.what())); }
+    } catch (const InputError& error) { refuse_plan(fmt::format("maneuver '{}': {}", name, error.what())); }
     made.maneuvers.back().name = name;
     legs += made.maneuvers.back().legs.size();
     if (legs > max_plan_legs)

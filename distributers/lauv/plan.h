@@ -18,7 +18,7 @@ struct Plan {
   FlightLimits limits{};  // of what is commanded while it runs
 };
 
-/// Throws std::invalid_argument that says what can't be flown, and in which maneuver.
+/// Throws InputError that says what can't be flown, and in which maneuver.
 Plan make_plan(const messages::imc::PlanSpecification& plan, const Origin& origin, const FlightLimits& limits = {});
 
 /// Of one maneuver.

@@ -30,7 +30,7 @@ class PlanRun {
   bool note(const tasks::Progress& progress, const tasks::Motion& motion, Duration now);
   /// Time passes. True as above.
   bool pass(Duration now);
-  /// A reference; true as above, or the same leg has other levels and speeds. Throws std::invalid_argument for what
+  /// A reference; true as above, or the same leg has other levels and speeds. Throws InputError for what
   /// can't be commanded.
   bool follow(const messages::imc::Reference& reference, std::uint16_t source, std::uint8_t entity, Duration now,
               const Origin& origin, const tasks::Motion& motion);

@@ -1,10 +1,10 @@
 #include "distributers/lauv/reference_follower.h"
 
 #include <cmath>
-#include <stdexcept>
 
 #include "distributers/messages/payload.h"
 #include "graph/math/geometry.h"
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 namespace imc = messages::imc;
@@ -23,7 +23,7 @@ template <class M>
 M read(const messages::InlineMessage& field, const char* name) {
   messages::Message message;
   if (!messages::take_inline(imc::message_set(), field, message) || message.as<M>() == nullptr)
-    throw std::invalid_argument(std::string("the reference's ") + name + " is no " + std::string(M::descriptor.name));
+    throw InputError(std::string("the reference's ") + name + " is no " + std::string(M::descriptor.name));
   return *message.as<M>();
 }
 
@@ -80,7 +80,7 @@ bool ReferenceFollower::take(const imc::Reference& reference, std::uint16_t sour
     set_level(leg, static_cast<double>(z.value), z.z_units, limits_);
   }
   if ((reference.flags & Flags::RADIUS) != 0) {
-    if (!std::isfinite(reference.radius)) throw std::invalid_argument("the reference's radius is no number");
+    if (!std::isfinite(reference.radius)) throw InputError("the reference's radius is no number");
     check_radius(limits_, std::abs(static_cast<double>(reference.radius)), "the reference's radius");
     radius_ = static_cast<double>(reference.radius);
     if (leg.course == Course::circle || leg.course == Course::station) leg.radius = radius_on(leg.course, radius_);

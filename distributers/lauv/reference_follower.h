@@ -10,7 +10,7 @@
 
 namespace jarol::distributers {
 
-/// Throws std::invalid_argument where its z can't be read.
+/// Throws InputError where its z can't be read.
 bool needs_altitude(const messages::imc::Reference& reference);
 
 class ReferenceFollower {
@@ -20,7 +20,7 @@ class ReferenceFollower {
   /// Is it steered by that system and entity?
   bool obeys(std::uint16_t source, std::uint8_t entity) const;
   /// Takes a reference; what it leaves out is as before, and the place at first that of the vehicle. At speed 0 the
-  /// propeller is off. False: who sent it may not. Throws std::invalid_argument for what can't be commanded, and
+  /// propeller is off. False: who sent it may not. Throws InputError for what can't be commanded, and
   /// nothing of it counts.
   bool take(const messages::imc::Reference& reference, std::uint16_t source, std::uint8_t entity, Duration now,
             const Origin& origin, const tasks::Motion& motion);

@@ -4,7 +4,8 @@
 #include <netinet/in.h>
 
 #include <cstring>
-#include <stdexcept>
+
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 namespace {
@@ -34,7 +35,7 @@ Address Address::parse(const std::string& text) {
   }
   const bool brackets = host.size() > 1 && host.front() == '[' && host.back() == ']';
   if (!is_port(port) || host.empty() || (!brackets && host.find(':') != std::string::npos))
-    throw std::invalid_argument("'" + text + "' is not an address with a port; " + forms);
+    throw InputError("'" + text + "' is not an address with a port; " + forms);
   if (brackets) host = host.substr(1, host.size() - 2);
   addrinfo hints{};
   hints.ai_family = AF_UNSPEC;
@@ -42,7 +43,7 @@ Address Address::parse(const std::string& text) {
   hints.ai_flags = AI_NUMERICSERV;
   addrinfo* found = nullptr;
   if (const int error = getaddrinfo(host.c_str(), port.c_str(), &hints, &found); error != 0)
-    throw std::invalid_argument("the host '" + host + "' can't be found: " + gai_strerror(error));
+    throw InputError("the host '" + host + "' can't be found: " + gai_strerror(error));
   Address address;
   std::memcpy(&address.storage_, found->ai_addr, found->ai_addrlen);
   address.size_ = found->ai_addrlen;

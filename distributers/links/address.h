@@ -14,7 +14,7 @@ class Address {
   Address() = default;
 
   /// Of "7000", "192.168.2.3:7000", "[::1]:7000" or "name:7000"; without a host it is the loopback 127.0.0.1. Throws
-  /// std::invalid_argument that says what would be right.
+  /// InputError that says what would be right.
   static Address parse(const std::string& text);
   /// As the socket functions give it.
   static Address of(const sockaddr_storage& storage, socklen_t size);

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <stdexcept>
+
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 namespace {
@@ -23,8 +24,8 @@ void add_addresses(const std::string& text, std::vector<Address>& to) {
   const std::string host = colon == std::string::npos ? "" : text.substr(0, colon + 1);
   const int first = to.back().port(), last = Address::parse(host + text.substr(dash + 1)).port();
   if (last < first || last - first >= max_addresses)
-    throw std::invalid_argument("'" + text + "' is no range of ports; write the first and the last of no more than " +
-                                std::to_string(max_addresses));
+    throw InputError("'" + text + "' is no range of ports; write the first and the last of no more than " +
+                     std::to_string(max_addresses));
   for (int port = first + 1; port <= last; ++port) to.push_back(Address::parse(host + std::to_string(port)));
 }
 
@@ -51,7 +52,7 @@ void Announcer::open() {
     // a broadcast address is one that was named as such
     const int yes = 1;
     if (!made || setsockopt(made.get(), SOL_SOCKET, SO_BROADCAST, &yes, sizeof yes) != 0)
-      throw std::runtime_error("can't announce by " + text() + ": " + std::strerror(errno));
+      throw InputError("can't announce by " + text() + ": " + std::strerror(errno));
     sockets_.push_back(std::move(made));
   }
 }

@@ -19,10 +19,10 @@ class Announcer {
   explicit Announcer(std::vector<Address> to) : to_(std::move(to)), failures_(to_.size()) {}
 
   /// Of "127.0.0.1:30100-30104" or "30100, 192.168.2.255:30100": addresses, each with a port or the first and last of
-  /// some. Throws std::invalid_argument that says what would be right.
+  /// some. Throws InputError that says what would be right.
   static std::vector<Address> parse(const std::string& text);
 
-  /// Throws std::runtime_error with the cause.
+  /// Throws InputError with the cause.
   void open();
   /// Where nobody listens now somebody may later: that it arrives is not known, and no matter.
   void send(std::span<const std::byte> packet);

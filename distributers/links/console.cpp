@@ -1,9 +1,8 @@
 #include "distributers/links/console.h"
 
-#include <stdexcept>
-
 #include "distributers/links/link_type.h"
 #include "distributers/links/translator.h"
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 
@@ -86,7 +85,7 @@ LinkType console_link() {
       [](const ConsoleSpec&, const LinkRequest& request, Problems& problems) -> std::unique_ptr<ExternalSystem> {
         try {
           return std::make_unique<ConsoleSystem>(request.make_distributer());
-        } catch (const std::invalid_argument& error) {
+        } catch (const InputError& error) {
           problems.add(request.yaml().where, "distributer '" + request.whose().name + "': " + error.what());
           return nullptr;
         }

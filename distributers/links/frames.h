@@ -4,20 +4,20 @@
 #include <chrono>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "distributers/links/address.h"
 #include "distributers/links/descriptor.h"
 #include "distributers/links/seal.h"
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 
 /// The other end has gone, is silent, or does not keep to the protocol.
-class FrameError : public std::runtime_error {
+class FrameError : public Unfinished {
  public:
-  using std::runtime_error::runtime_error;
+  using Unfinished::Unfinished;
 };
 
 /// The other end has ended the connection.

@@ -7,6 +7,7 @@
 
 #include "distributers/links/timestamp.h"
 #include "graph/floating_point.h"
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 namespace {
@@ -52,9 +53,20 @@ Link::Link(std::unique_ptr<Transport> transport, const messages::MessageSet& set
 
 Link::~Link() { disconnect(); }
 
+// One of a plugin may say by any exception that there is no way: it is no error of ours.
+void Link::open_transport() {
+  try {
+    transport_->open();
+  } catch (const Unfinished&) { throw; } catch (const std::system_error&) {
+    throw;
+  } catch (const std::bad_alloc&) { throw; } catch (const std::exception& error) {
+    throw InputError(error.what());
+  }
+}
+
 void Link::connect() {
   if (connected_) return;
-  transport_->open();
+  open_transport();
   try {
     if (announcer_) announcer_->open();
   } catch (...) {
@@ -94,7 +106,7 @@ void Link::run(Failure& failure, Work work) {
 
 void Link::require_works(const Failure& thread, const char* what) const {
   if (thread.failed.load(std::memory_order_acquire))
-    throw std::runtime_error(transport_->text() + ": " + what + " has failed: " + thread.text);
+    throw Unfinished(transport_->text() + ": " + what + " has failed: " + thread.text);
 }
 
 void Link::disconnect() {

@@ -17,18 +17,18 @@ namespace jarol::distributers {
 /// Connect, disconnect, send and receive belong to one thread, which never waits but in `disconnect`.
 class Link {
  public:
-  /// Throws std::invalid_argument if the set's header has no such integer field.
+  /// Throws InputError if the set's header has no such integer field.
   Link(std::unique_ptr<Transport> transport, const messages::MessageSet& set, const LinkOptions& options);
   ~Link();
 
-  /// Begins to receive and to send; nothing if it has begun. Throws std::runtime_error if a port or line is not to be
+  /// Begins to receive and to send; nothing if it has begun. Throws InputError if a port or line is not to be
   /// had, or no thread.
   void connect();
   /// Sends what is pending and ends; nothing if it has ended.
   void disconnect();
 
   /// Gives the receiver the packets that have arrived, oldest first; no more than the port holds, however fast others
-  /// come. Throws std::runtime_error with the cause once the transport has thrown where it receives or sends.
+  /// come. Throws Unfinished with the cause once the transport has thrown where it receives or sends.
   void receive(messages::Receiver& receiver);
   /// Who sent the packet that was given last: datagrams' peers are numbered from 1, several at once have one number; 0:
   /// it came in a stream.
@@ -55,7 +55,7 @@ class Link {
   /// The same for all who may look for this system, in place of the peer.
   void announce(messages::MessageRef message);
   /// Wakes the sending thread for what was given to `send` and `announce` since the last call. Throws
-  /// std::runtime_error with the cause once the transport has thrown where it sends.
+  /// Unfinished with the cause once the transport has thrown where it sends.
   void flush();
 
   /// Between `connect` and the time when all that was given to `send` has gone out; any thread.
@@ -77,6 +77,7 @@ class Link {
   };
   template <class Work>
   static void run(Failure& failure, Work work);
+  void open_transport();
   void require_works(const Failure& thread, const char* what) const;
 
   messages::Message& header_of(messages::MessageRef message);

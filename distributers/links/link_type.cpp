@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "distributers/interfaces/any_distributer.h"
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 
@@ -12,8 +13,8 @@ std::string LinkRequest::subject() const { return "link of distributer '" + whos
 std::unique_ptr<AnyDistributer> LinkRequest::make_distributer() const {
   try {
     return whose().distributer_class->make(whose().parameters.data());
-  } catch (const std::exception& error) { throw std::invalid_argument(error.what()); } catch (...) {
-    throw std::invalid_argument("its constructor throws what is no std::exception");
+  } catch (const std::exception& error) { throw InputError(error.what()); } catch (...) {
+    throw InputError("its constructor throws what is no std::exception");
   }
 }
 

@@ -31,7 +31,7 @@ struct LinkRequest {
   const Yaml& yaml() const { return whose().link; }
   /// As messages call it: "link of distributer 'dune'".
   std::string subject() const;
-  /// The distributer's code. Throws std::invalid_argument if there can be none with its parameters, whatever its
+  /// The distributer's code. Throws InputError if there can be none with its parameters, whatever its
   /// constructor throws.
   std::unique_ptr<AnyDistributer> make_distributer() const;
   /// A file that the link names, whose path is relative to the graph's; null: it can't be read, which is reported.

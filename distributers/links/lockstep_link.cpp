@@ -1,6 +1,7 @@
 // The link type `lockstep`.
 #include "distributers/links/lockstep.h"
 #include "distributers/links/packet_link.h"
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 namespace {
@@ -22,7 +23,7 @@ std::unique_ptr<ExternalSystem> make_lockstep_channels(const LockstepSpec& spec,
           return wrong.empty() ? std::string() : wrong.front().text;
         },
         std::move(options));
-  } catch (const std::invalid_argument& error) {
+  } catch (const InputError& error) {
     problems.add(spec.peer->where, error.what());
     return nullptr;
   }

@@ -1,9 +1,8 @@
 #include "distributers/links/packet_link.h"
 
-#include <stdexcept>
-
 #include "distributers/interfaces/any_distributer.h"
 #include "distributers/links/linked.h"
+#include "graph/text/errors.h"
 
 namespace jarol {
 
@@ -62,7 +61,7 @@ Address read_address(const Maybe<std::string>& text, Problems& problems) {
   if (!text) return {};
   try {
     return Address::parse(text->value);
-  } catch (const std::invalid_argument& error) {
+  } catch (const InputError& error) {
     problems.add(text->where, error.what());
     return {};
   }
@@ -71,7 +70,7 @@ Address read_address(const Maybe<std::string>& text, Problems& problems) {
 std::optional<SecretKey> read_key_file(const Located<std::string>& path, Problems& problems) {
   try {
     return read_key(path.value);
-  } catch (const std::invalid_argument& error) {
+  } catch (const InputError& error) {
     problems.add(path.where, error.what());
     return std::nullopt;
   }
@@ -96,7 +95,7 @@ std::unique_ptr<Link> make_packet_link(std::unique_ptr<Transport> transport, con
   if (spec.source) options.accept.emplace_back("src", static_cast<std::uint64_t>(spec.source->value));
   try {
     return std::make_unique<Link>(std::move(transport), set, options);
-  } catch (const std::invalid_argument& error) {
+  } catch (const InputError& error) {
     problems.add(last->where, subject + ": " + error.what());
     return nullptr;
   }
@@ -110,7 +109,7 @@ std::unique_ptr<ExternalSystem> make_packet_channels(const LinkType& type, const
     auto link = type.make_link(request.yaml(), set, request.subject(), problems);
     if (!link) return nullptr;
     return std::make_unique<LinkedSystem>(std::move(link), std::move(distributer));
-  } catch (const std::invalid_argument& error) {
+  } catch (const InputError& error) {
     problems.add(request.yaml().where, "distributer '" + request.whose().name + "': " + error.what());
     return nullptr;
   }

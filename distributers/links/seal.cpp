@@ -3,7 +3,8 @@
 #include <sodium.h>
 
 #include <cstring>
-#include <stdexcept>
+
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 namespace {
@@ -65,7 +66,7 @@ void GuardianSeal::seal(std::span<const std::byte> packet, std::vector<std::byte
 }
 
 Seal::Seal(const SecretKey& key, std::string_view context) {
-  if (sodium_init() < 0) throw std::runtime_error("there are no random numbers for the key of a link");
+  if (sodium_init() < 0) throw Unfinished("there are no random numbers for the key of a link");
   const std::string use = "jarol link 1 " + std::string(context);
   crypto_generichash(reinterpret_cast<unsigned char*>(key_.data()), key_.size(),
                      reinterpret_cast<const unsigned char*>(use.data()), use.size(), bytes_of(key.data()), key.size());

@@ -8,10 +8,10 @@
 
 #include <cerrno>
 #include <cstring>
-#include <stdexcept>
 
 #include "distributers/links/descriptor.h"
 #include "graph/language/inputs.h"
+#include "graph/text/errors.h"
 #include "graph/text/shell_word.h"
 
 namespace jarol::distributers {
@@ -22,9 +22,7 @@ constexpr std::size_t min_bytes = 32, max_bytes = 4096;
 }  // namespace
 
 SecretKey read_key(const std::string& path) {
-  const auto refuse = [&](const std::string& why) {
-    throw std::invalid_argument("the key file '" + path + "' " + why);
-  };
+  const auto refuse = [&](const std::string& why) { throw InputError("the key file '" + path + "' " + why); };
   const std::string by = "; make one by: (umask 077; head -c 32 /dev/urandom > " + shell_word(path) + ")";
   // a pipe without a writer would be waited for
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));

@@ -10,7 +10,7 @@ namespace jarol::distributers {
 /// Made of all bytes of a file.
 using SecretKey = std::array<std::byte, 32>;
 
-/// Of a regular file of 32 to 4096 bytes that none but its owner may read or write. Throws std::invalid_argument that
+/// Of a regular file of 32 to 4096 bytes that none but its owner may read or write. Throws InputError that
 /// says what is wrong and what would be right.
 SecretKey read_key(const std::string& path);
 

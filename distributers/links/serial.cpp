@@ -7,10 +7,10 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <stdexcept>
 #include <thread>
 
 #include "distributers/links/packet_link.h"
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 namespace {
@@ -35,7 +35,7 @@ speed_t speed_of(int baud) {
     if (rate.baud == baud) return rate.speed;
     known += (known.empty() ? "" : ", ") + std::to_string(rate.baud);
   }
-  throw std::invalid_argument("no serial line has " + std::to_string(baud) + " baud; there are: " + known);
+  throw InputError("no serial line has " + std::to_string(baud) + " baud; there are: " + known);
 }
 
 std::unique_ptr<Transport> make_serial(const SerialSpec& spec, const Yaml& yaml, const std::string&,
@@ -43,7 +43,7 @@ std::unique_ptr<Transport> make_serial(const SerialSpec& spec, const Yaml& yaml,
   try {
     return std::make_unique<SerialTransport>(spec.device->value,
                                              static_cast<int>(spec.baud ? spec.baud->value : usual_baud));
-  } catch (const std::invalid_argument& error) {
+  } catch (const InputError& error) {
     problems.add(spec.baud ? spec.baud->where : yaml.where, error.what());
     return nullptr;
   }
@@ -64,8 +64,8 @@ void SerialTransport::open() {
     const int reason = errno;
     const bool in_use = reason == EWOULDBLOCK;
     if (!in_use || Clock::now() > end)
-      throw std::runtime_error("can't open " + text() + ": " +
-                               (in_use ? "it is in use by another process" : std::strerror(reason)));
+      throw InputError("can't open " + text() + ": " +
+                       (in_use ? "it is in use by another process" : std::strerror(reason)));
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }

@@ -12,7 +12,7 @@ LinkType serial_link();
 
 class SerialTransport : public StreamTransport {
  public:
-  /// Throws std::invalid_argument for a rate that no line has.
+  /// Throws InputError for a rate that no line has.
   SerialTransport(std::string device, int baud);
   std::string text() const override { return "serial " + device_ + " at " + std::to_string(baud_) + " baud"; }
   void open() override;

@@ -3,6 +3,7 @@
 #include "distributers/interfaces/vehicle_file.h"
 #include "distributers/links/link_type.h"
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 #include "graph/values/bind.h"
 
 namespace jarol::distributers {
@@ -29,7 +30,7 @@ std::unique_ptr<ExternalSystem> make_simulation_channels(const SimulationSpec& s
   std::unique_ptr<AnyDistributer> distributer;
   try {
     distributer = request.make_distributer();
-  } catch (const std::invalid_argument& error) {
+  } catch (const InputError& error) {
     problems.add(request.yaml().where, "distributer '" + request.whose().name + "': " + error.what());
     return nullptr;
   }

@@ -7,9 +7,9 @@
 
 #include <cerrno>
 #include <cstring>
-#include <stdexcept>
 
 #include "distributers/links/packet_link.h"
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 namespace {
@@ -58,7 +58,7 @@ Descriptor listen_at(const Address& address, int backlog) {
   const int on = 1;
   if (made) setsockopt(made.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   if (!made || bind(made.get(), address.get(), address.size()) != 0 || listen(made.get(), backlog) != 0)
-    throw std::runtime_error("can't listen at tcp " + address.text() + ": " + std::strerror(errno));
+    throw InputError("can't listen at tcp " + address.text() + ": " + std::strerror(errno));
   return made;
 }
 

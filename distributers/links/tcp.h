@@ -12,7 +12,7 @@ struct LinkType;
 LinkType tcp_client_link();
 LinkType tcp_server_link();
 
-/// A socket that listens and does not block. Throws std::runtime_error with the cause.
+/// A socket that listens and does not block. Throws InputError with the cause.
 Descriptor listen_at(const Address& address, int backlog = 1);
 /// Whoever has connected to a socket that listens; none: nobody waits.
 Descriptor accept_from(const Descriptor& socket);

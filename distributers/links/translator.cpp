@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstring>
-#include <stdexcept>
 #include <utility>
 
 #include "graph/language/problems.h"
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 
@@ -39,11 +39,10 @@ const messages::FieldDescriptor& find_header_field(const messages::MessageDescri
     if (field.name != name || field.wire > messages::Wire::uint64) continue;
     const std::size_t size = size_of(field.wire);
     if (size < 8 && value >> (8 * size) != 0)
-      throw std::invalid_argument("field '" + name + "' of the header has no room for " + std::to_string(value));
+      throw InputError("field '" + name + "' of the header has no room for " + std::to_string(value));
     return field;
   }
-  throw std::invalid_argument("the header has no integer field '" + name +
-                              "'; it has: " + list_of(names_of_fields(descriptor)));
+  throw InputError("the header has no integer field '" + name + "'; it has: " + list_of(names_of_fields(descriptor)));
 }
 
 std::size_t longest_packet(const messages::MessageSet& set) {

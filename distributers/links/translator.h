@@ -24,7 +24,7 @@ namespace jarol::distributers {
 
 using PacketPorts = std::variant<PacketPort, PushPacketPort>;
 
-/// The integer field of a set's header that has room for the value. Throws std::invalid_argument if there is none.
+/// The integer field of a set's header that has room for the value. Throws InputError if there is none.
 const messages::FieldDescriptor& find_header_field(const messages::MessageDescriptor& descriptor,
                                                    const std::string& name, std::uint64_t value);
 

@@ -58,7 +58,7 @@ class Transport {
   /// What is wrong with how it is set up, though it works, as in "announces itself where ..."; empty: nothing.
   virtual std::string doubt() const { return {}; }
 
-  /// Takes hold of what must be there from the begin, as a port to listen at. Throws std::runtime_error with the cause.
+  /// Takes hold of what must be there from the begin, as a port to listen at. Throws InputError with the cause.
   virtual void open() = 0;
 
   /// Receives until interrupted; a peer that is lost is looked for again, at growing intervals up to a second. What it

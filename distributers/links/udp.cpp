@@ -6,8 +6,9 @@
 #include <chrono>
 #include <cstring>
 #include <optional>
-#include <stdexcept>
 #include <thread>
+
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 namespace {
@@ -84,7 +85,7 @@ std::string UdpTransport::doubt() const {
 void UdpTransport::open() {
   Descriptor made(socket(listen_.family(), SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!made || !bind_with_patience(made.get(), listen_))
-    throw std::runtime_error("can't listen at " + text() + ": " + std::strerror(errno));
+    throw InputError("can't listen at " + text() + ": " + std::strerror(errno));
   set_option(made, SO_RXQ_OVFL, 1);
   door_.socket = std::move(made);
   door_.overflown = 0;

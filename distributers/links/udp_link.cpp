@@ -1,10 +1,10 @@
 // The link type `udp`.
 #include <algorithm>
-#include <stdexcept>
 
 #include "distributers/links/announcer.h"
 #include "distributers/links/packet_link.h"
 #include "distributers/links/udp.h"
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 namespace {
@@ -65,7 +65,7 @@ std::unique_ptr<Transport> make_udp(const UdpSpec& spec, const Yaml& yaml, const
     const std::vector<Address> to = spec.announce ? Announcer::parse(spec.announce->value) : std::vector<Address>{};
     if (spec.announce) require_same_family(*spec.announce, to, listen, problems);
     return std::make_unique<UdpTransport>(listen, peer, to, spec.silence_of_peer(), peers);
-  } catch (const std::invalid_argument& error) {
+  } catch (const InputError& error) {
     problems.add(spec.announce->where, error.what());
     return nullptr;
   }

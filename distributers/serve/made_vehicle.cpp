@@ -6,6 +6,7 @@
 #include "distributers/interfaces/vehicle_file.h"
 #include "graph/language/override.h"
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 #include "graph/values/bind.h"
 #include "graph/values/seed.h"
 #include "graph/values/type_of.h"
@@ -90,7 +91,7 @@ std::unique_ptr<vehicles::Vehicle> make_vehicle(const VehicleOptions& options,
     vehicle = vehicle_class.make(parameters.data(), seed);
   } catch (const std::exception& error) {
     problems.throw_if_any();
-    throw std::invalid_argument("vehicle '" + vehicle_class.name + "' can't be made: " + error.what());
+    throw InputError("vehicle '" + vehicle_class.name + "' can't be made: " + error.what());
   }
   if (!options.initial.empty()) {
     vehicles::VehicleState state = vehicle->state();
@@ -98,9 +99,7 @@ std::unique_ptr<vehicles::Vehicle> make_vehicle(const VehicleOptions& options,
     problems.throw_if_any();
     try {
       vehicle->place(state);
-    } catch (const std::runtime_error& error) {
-      throw std::invalid_argument(options.words.initial + ": " + error.what());
-    }
+    } catch (const std::runtime_error& error) { throw InputError(options.words.initial + ": " + error.what()); }
   }
   problems.throw_if_any();
   return vehicle;

@@ -32,7 +32,7 @@ struct VehicleOptions {
 Value read_parameters(const VehicleOptions& options, const vehicles::VehicleClass& vehicle,
                       const NamedList<vehicles::VehicleClass>& known, Problems& problems);
 
-/// In its initial state. Throws SpecError with all problems if there are any; std::invalid_argument if there can be no
+/// In its initial state. Throws SpecError with all problems if there are any; InputError if there can be no
 /// such vehicle.
 std::unique_ptr<vehicles::Vehicle> make_vehicle(const VehicleOptions& options,
                                                 const vehicles::VehicleClass& vehicle_class, const Value& parameters,

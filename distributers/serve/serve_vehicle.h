@@ -38,7 +38,7 @@ struct ServeOutcome {
   LinkReport link{};
 };
 
-/// Until the end, or an interrupt. Both stay the caller's; the class outlives the outcome. Throws std::runtime_error
+/// Until the end, or an interrupt. Both stay the caller's; the class outlives the outcome. Throws Unfinished
 /// where the link can't be had, or is lost.
 ServeOutcome serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class,
                            distributers::Link& link, const ServeOptions& options = {});

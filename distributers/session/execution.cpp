@@ -1,9 +1,8 @@
 #include "distributers/session/execution.h"
 
-#include <stdexcept>
-
 #include "graph/analysis/execution_times.h"
 #include "graph/language/source_set.h"
+#include "graph/text/errors.h"
 
 namespace jarol {
 namespace {
@@ -32,7 +31,7 @@ Execution::Execution(const std::string& execution, const Graph& graph, std::uint
   ExecutionTimes times = make();
   try {
     schedule_.emplace(analysis::schedule_of(graph, std::move(times)));
-  } catch (const std::invalid_argument& wrong) { throw std::invalid_argument(option + ": " + wrong.what()); }
+  } catch (const InputError& wrong) { throw InputError(option + ": " + wrong.what()); }
 }
 
 std::string recorded_execution(const std::string& execution) {

@@ -13,7 +13,7 @@ namespace jarol {
 class Execution {
  public:
   /// "wcet", "random" or a file; empty: nothing is ever late. Throws SpecError with all that is wrong with the file,
-  /// std::invalid_argument where the graph has no such schedule; `option`: what messages call it.
+  /// InputError where the graph has no such schedule; `option`: what messages call it.
   Execution(const std::string& execution, const Graph& graph, std::uint64_t seed,
             const std::string& option = ".execution");
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "distributers/session/errors.h"
-
 namespace jarol {
 namespace {
 
@@ -19,11 +17,6 @@ RunStart start_of(Loaded& loaded) { return {{}, std::move(loaded.channels)}; }
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 }  // namespace
-
-void require_workers(std::size_t workers) {
-  if (workers < 1 || workers > max_workers)
-    throw NotExecutable("a run has 1 to " + std::to_string(max_workers) + " workers, not " + std::to_string(workers));
-}
 
 GraphRun::GraphRun(Loaded loaded, const GraphRunOptions& options)
     : GraphRun(std::move(loaded), *loaded.graph,

@@ -17,9 +17,6 @@ namespace jarol {
 /// Workers of one run on the virtual clock.
 inline constexpr std::size_t max_workers = 64;
 
-/// Throws NotExecutable for a number of workers that can't be.
-void require_workers(std::size_t workers);
-
 struct GraphRunOptions {
   std::vector<RecordSink*> sinks{};  // get all that is published; they outlive the run
   std::size_t workers = 1;

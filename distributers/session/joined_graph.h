@@ -39,7 +39,7 @@ class JoinedGraph {
   /// The instant that is reached. Any thread.
   virtual Duration now() const = 0;
 
-  /// Before the first instant. Throws std::runtime_error if there is no way to an external system.
+  /// Before the first instant. Throws InputError if there is no way to an external system.
   void connect(NoteSink note) { linked_.emplace(channels_, std::move(note)); }
   /// After the last one.
   void disconnect() { linked_->finish(); }

@@ -18,7 +18,7 @@ std::vector<ExternalSystem*> pointers_to(const std::vector<std::unique_ptr<Exter
 /// External systems that are on links run while this lives.
 class Linked {
  public:
-  /// Throws std::runtime_error if there is no way to an external system.
+  /// Throws InputError if there is no way to an external system.
   Linked(std::vector<ExternalSystem*> channels, NoteSink note);
   ~Linked() { finish(); }
   Linked(const Linked&) = delete;

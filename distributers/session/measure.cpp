@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "graph/text/errors.h"
 #include "runtime/execute/executor.h"
 #include "runtime/machine/thread_time.h"
 
@@ -18,9 +18,9 @@ Duration length_of_missions(const Loaded& loaded) {
 
 void require_in_process(const Loaded& loaded) {
   if (const Distributer* distributer = find_in_real_time(loaded))
-    throw std::invalid_argument("distributer '" + distributer->name +
-                                "' has a link to what goes on by itself, from which nothing comes while tasks are "
-                                "measured; choose a link in process, as simulation or script");
+    throw InputError("distributer '" + distributer->name +
+                     "' has a link to what goes on by itself, from which nothing comes while tasks are "
+                     "measured; choose a link in process, as simulation or script");
 }
 
 // What lengthens an activation once in a while: an interrupt, cold caches, a page. It hit some task while these were
@@ -37,7 +37,7 @@ Measurement measure_tasks(Loaded& loaded, std::optional<Duration> end) {
   require_in_process(loaded);
   const Duration over = end ? *end : length_of_missions(loaded);
   if (thread_time_between_readings() == Duration{})
-    throw std::runtime_error(
+    throw Unfinished(
         "this machine's clock of a thread's own time is too coarse to measure tasks; state their 'wcet' yourself");
   // a vehicle in lockstep is connected to; they do not finish, for what that keeps is for the next run
   for (const auto& channels : loaded.channels) channels->begin();
@@ -45,8 +45,7 @@ Measurement measure_tasks(Loaded& loaded, std::optional<Duration> end) {
                     {.digest = false, .recorder = nullptr, .sharing = Sharing::measure});
   executor.run_until(over);
   if (executor.report().stopped)
-    throw std::invalid_argument("nothing was measured, as a fault stopped the run: " +
-                                to_text(executor.report().faults.front()));
+    throw InputError("nothing was measured, as a fault stopped the run: " + to_text(executor.report().faults.front()));
   Measurement measured{over, {}, executor.report()};
   for (std::size_t i = 0; i < loaded.graph->tasks.size(); ++i) {
     const Histogram& took = executor.team()->took(i);

@@ -24,8 +24,8 @@ struct Measurement {
 
 /// Runs the graph on the virtual clock up to `end`, by default that of its missions, else 10 s; per task the processor
 /// time of the thread that runs it, so that what preempts it does not count. Its channels are used up. Throws
-/// std::runtime_error if a vehicle in lockstep can't be reached or is lost, or if the machine can't measure so,
-/// std::invalid_argument where a link goes on by itself, or a fault stops the run.
+/// Unfinished if a vehicle in lockstep can't be reached or is lost, or if the machine can't measure so,
+/// InputError where a link goes on by itself, or a fault stops the run.
 Measurement measure_tasks(Loaded& loaded, std::optional<Duration> end = {});
 
 /// The task that exceeded its `wcet` by most: a verdict is of other times than those of this machine. Null: none did.

@@ -6,6 +6,7 @@
 
 #include "distributers/session/errors.h"
 #include "graph/language/problems.h"
+#include "graph/text/article.h"
 #include "graph/values/archive.h"
 
 namespace jarol {
@@ -80,7 +81,8 @@ Place Observed::find(std::string_view name, const Type& type) const {
   const std::string_view path = name.substr(of->name.size());
   const Place found = find_within({static_cast<std::size_t>(of - outputs_.data()), 0, of->type}, path, of->name);
   if (same_type(*found.type, type)) return found;
-  throw WrongType("'" + std::string(name) + "' is a " + found.type->name + ", not a " + type.name);
+  throw WrongType("'" + std::string(name) + "' is " + with_article(found.type->name) + ", not " +
+                  with_article(type.name));
 }
 
 void Observed::serialize(Archive& archive) {

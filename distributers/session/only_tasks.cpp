@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <span>
-#include <stdexcept>
 
 #include "graph/language/problems.h"
+#include "graph/text/errors.h"
 #include "runtime/record/cdr.h"
 #include "runtime/record/ros2msg.h"
 
@@ -71,11 +71,11 @@ void OnlyTasks::require_recorded(const std::string& output, const Type& type) co
   const ReadTopic* const topic = recording_.find(output);
   const std::string which = "of '" + output + "', which these tasks publish, and they can't be compared; ";
   if (topic == nullptr)
-    throw std::invalid_argument("--only: the recording has no values " + which +
-                                "record all that is published, jarol run --record, or leave the task out");
+    throw InputError("--only: the recording has no values " + which +
+                     "record all that is published, jarol run --record, or leave the task out");
   if (topic->schema != schema_of(type).text)
-    throw std::invalid_argument("--only: the recording has values of another type " + which +
-                                "replay the graph of the run, or leave the task out");
+    throw InputError("--only: the recording has values of another type " + which +
+                     "replay the graph of the run, or leave the task out");
 }
 
 void OnlyTasks::keep_tasks(const Graph& graph, const std::vector<std::string>& names) {
@@ -83,8 +83,8 @@ void OnlyTasks::keep_tasks(const Graph& graph, const std::vector<std::string>& n
   for (const Task& task : graph.tasks) known.push_back(task.name);
   for (const std::string& name : names)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw std::invalid_argument("--only: the graph has no task '" + name + "'" + did_you_mean(name, known) +
-                                  "; it has: " + list_of(known));
+      throw InputError("--only: the graph has no task '" + name + "'" + did_you_mean(name, known) +
+                       "; it has: " + list_of(known));
   kept_.assign(graph.tasks.size(), none);
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     if (std::find(names.begin(), names.end(), known[i]) == names.end()) continue;
@@ -129,8 +129,8 @@ void OnlyTasks::add_source(const Graph& graph, const End& from, const Type& type
     if (c.name == name) return;
   const ReadTopic* const topic = recording_.find(name);
   if (topic == nullptr || topic->schema != schema_of(type).text)
-    throw std::invalid_argument("--only: the recording has no values of '" + name +
-                                "', which they read; record all that is published: jarol run --record");
+    throw InputError("--only: the recording has no values of '" + name +
+                     "', which they read; record all that is published: jarol run --record");
   Communicator source{.name = name,
                       .where = {},
                       .direction = Direction::in,

@@ -14,7 +14,7 @@ namespace jarol {
 /// at each instant what the recording has of it then.
 class OnlyTasks {
  public:
-  /// Throws std::invalid_argument where a task is not in the graph, or the recording lacks what one of them reads or
+  /// Throws InputError where a task is not in the graph, or the recording lacks what one of them reads or
   /// publishes, or has it with another type. The recording outlives it.
   OnlyTasks(const Graph& graph, const std::vector<std::string>& tasks, const Recording& recording);
 

@@ -10,7 +10,7 @@
 namespace jarol {
 
 /// Null: none is asked for. What it does not hold, and a replay has to be given again, is noted. Throws
-/// std::invalid_argument where `what` names nothing.
+/// InputError where `what` names nothing.
 std::unique_ptr<RecordingWriter> make_recording(const RunOptions& options, const Loaded& loaded);
 
 }  // namespace jarol

@@ -1,11 +1,11 @@
 #include "distributers/session/replay_start.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "graph/language/quantities.h"
 #include "graph/language/read_source.h"
 #include "graph/language/source_set.h"
+#include "graph/text/errors.h"
 #include "runtime/checkpoint/checkpoint.h"
 
 namespace jarol {
@@ -71,12 +71,12 @@ bool is_text_of_run(const std::string& file, const Recording& recording) {
 Duration replay_begin(const std::optional<Duration>& from, const RecordedRun& log, const std::string& option) {
   const Duration begin = log.header().begin;
   if (!from) return begin;
-  if (*from < begin) throw std::invalid_argument(option + ": the recording begins at " + seconds_text(begin) + " s");
+  if (*from < begin) throw InputError(option + ": the recording begins at " + seconds_text(begin) + " s");
   if (*from >= log.covered())
-    throw std::invalid_argument(option + ": the recording ends at " + seconds_text(log.covered()) + " s");
+    throw InputError(option + ": the recording ends at " + seconds_text(log.covered()) + " s");
   if (const std::optional<Duration> saved = log.saved_before(*from)) return *saved;
   if (*from > begin && !log.saved_before(log.covered()))
-    throw std::invalid_argument(
+    throw InputError(
         option +
         ": the recording holds no checkpoints; record it with --record-checkpoints 10s, or replay it as a whole");
   return begin;
@@ -93,8 +93,8 @@ void restore_recorded(GraphRun& run, Noted& noted, const RecordedRun& log, Durat
       throw CheckpointError("is damaged: a part of it is missing");
     saved.restore("notes", noted);
   } catch (const CheckpointError& wrong) {
-    throw std::invalid_argument("the checkpoint at " + seconds_text(at) + " s of '" + log.recording().path() + "' " +
-                                wrong.what());
+    throw InputError("the checkpoint at " + seconds_text(at) + " s of '" + log.recording().path() + "' " +
+                     wrong.what());
   }
 }
 

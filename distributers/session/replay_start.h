@@ -41,11 +41,11 @@ std::vector<std::string> changed_files(const Recording& recording);
 bool is_text_of_run(const std::string& file, const Recording& recording);
 
 /// Where a replay begins: at the newest checkpoint not after what is asked for, or where the recording does. `option`:
-/// what asks for it. Throws std::invalid_argument.
+/// what asks for it. Throws InputError.
 Duration replay_begin(const std::optional<Duration>& from, const RecordedRun& log, const std::string& option);
 
 /// The run goes on in this process from its checkpoint at that instant, with what it had noted by then. Throws
-/// std::invalid_argument.
+/// InputError.
 void restore_recorded(GraphRun& run, Noted& noted, const RecordedRun& log, Duration at, RunOrigin origin);
 
 }  // namespace jarol

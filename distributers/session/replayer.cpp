@@ -9,6 +9,7 @@
 #include "distributers/session/recorded_truth.h"
 #include "distributers/session/rest_verdict.h"
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 
 namespace jarol {
 namespace {
@@ -31,8 +32,8 @@ Replayer::Replayer(RecordedRun& log, const distributers::Registries& known, Repl
       whole_(load_recorded(log.recording(), known, options_.file, overrides_, world_, options_.note,
                            options_.words.graph)) {
   if (begun_ > Duration{} && !options_.only.empty())
-    throw std::invalid_argument(options_.words.only + " begins at the start of a run; leave out " +
-                                options_.words.from + ", or replay a recording of that");
+    throw InputError(options_.words.only + " begins at the start of a run; leave out " + options_.words.from +
+                     ", or replay a recording of that");
   misses_ = log_.begin(*whole_.graph, begun_);
   if (!options_.only.empty()) {
     take_only();
@@ -48,10 +49,10 @@ Replayer::Replayer(RecordedRun& log, const distributers::Registries& known, Repl
 
 void Replayer::take_only() {
   if (!log_.gaps().empty())
-    throw std::invalid_argument(
-        options_.words.only + ": the recording lacks published values that these tasks may have read, from " +
-        seconds_text(Duration(log_.gaps().front().from)) +
-        " s on, as they came faster than the disk took them; leave " + options_.words.only + " out");
+    throw InputError(options_.words.only +
+                     ": the recording lacks published values that these tasks may have read, from " +
+                     seconds_text(Duration(log_.gaps().front().from)) +
+                     " s on, as they came faster than the disk took them; leave " + options_.words.only + " out");
   only_.emplace(*whole_.graph, options_.only, log_.recording());
   misses_ = only_->misses_of(misses_);
 }
@@ -70,7 +71,7 @@ void Replayer::begin(std::vector<RecordSink*> sinks, bool truth) {
   noted_->add_to(sinks);
   values_.emplace(log_, outputs_of(graph), only_ ? &only_->outputs() : nullptr, begun_);
   if (only_ && !values_->has_any())
-    throw std::invalid_argument(options_.words.only + ": the recording has no values of these tasks to compare with");
+    throw InputError(options_.words.only + ": the recording has no values of these tasks to compare with");
   if (values_->has_any()) sinks.push_back(&*values_);
   run_.emplace(std::move(loaded_), GraphRunOptions{.sinks = std::move(sinks), .misses = misses_, .truth = truth});
   if (begun_ > Duration{}) restore_recorded(*run_, *noted_, log_, begun_, std::move(origin));

@@ -42,7 +42,7 @@ struct ReplayOutcome {
 class Replayer {
  public:
   /// Loads the graph. The recording outlives it. Throws SpecError for what is wrong with the graph; LogError;
-  /// std::invalid_argument where the recording can't be replayed like that.
+  /// InputError where the recording can't be replayed like that.
   Replayer(RecordedRun& log, const distributers::Registries& known, ReplayOptions options = {});
   Replayer(const Replayer&) = delete;
   Replayer& operator=(const Replayer&) = delete;
@@ -51,7 +51,7 @@ class Replayer {
   ReplayOutcome run(const Attendant& attendant = {});
 
   /// Those get all that is published, and with `truth` where vehicles truly were, and outlive it. Throws
-  /// std::invalid_argument where there is nothing to compare with, or the checkpoint is damaged.
+  /// InputError where there is nothing to compare with, or the checkpoint is damaged.
   void begin(std::vector<RecordSink*> sinks = {}, bool truth = false);
   /// Covers what the recording covers. Throws what a task's world throws.
   const RunEnd& attend(const Attendant& attendant = {});

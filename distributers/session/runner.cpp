@@ -9,6 +9,7 @@
 #include "distributers/session/record_run.h"
 #include "distributers/session/rest_verdict.h"
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 #include "runtime/execute/log_end.h"
 
 namespace jarol {
@@ -23,14 +24,16 @@ void require_clock(const RunOptions& options, const Loaded& loaded) {
 
 // What the virtual clock alone has.
 void require_options_of_clock(const RunOptions& options) {
-  require_workers(options.workers);
+  if (options.workers < 1 || options.workers > max_workers)
+    throw NotExecutable("a run has 1 to " + std::to_string(max_workers) + " workers, not " +
+                        std::to_string(options.workers));
   if (!options.real_clock) return;
   if (options.workers > 1)
     throw NotExecutable(options.words.workers + " belongs to the virtual clock; the real one goes by 'platform'");
   if (!options.execution.empty())
-    throw std::invalid_argument(options.words.execution +
-                                " belongs to the virtual clock; on the real one activations take the time that they "
-                                "take");
+    throw InputError(options.words.execution +
+                     " belongs to the virtual clock; on the real one activations take the time that they "
+                     "take");
 }
 
 void require_end(const RunOptions& options, Duration begun) {

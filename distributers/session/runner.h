@@ -34,7 +34,7 @@ class Runner {
 
   /// Of a graph that was loaded with its channels. Nothing runs yet, and links are not connected. Throws as above;
   /// NotExecutable, where it is for the verdict of check NotSchedulable; SpecError for what is wrong with the execution
-  /// times; CheckpointError where it can't go on from what was saved; std::invalid_argument where an option can't have
+  /// times; CheckpointError where it can't go on from what was saved; InputError where an option can't have
   /// its effect: what can't be saved, a recording that would be empty, a graph that threads can't run.
   Runner(
       Loaded loaded, RunOptions options, const OnGuard& on_guard = [](const Guard*) {});
@@ -45,7 +45,7 @@ class Runner {
   /// The three steps below. Throws what `begin` does.
   RunOutcome run(const Attendant& attendant = {});
 
-  /// Connects links and begins the recording, on the real clock with the run's priority. Throws std::runtime_error if
+  /// Connects links and begins the recording, on the real clock with the run's priority. Throws InputError if
   /// there is no way to an external system, or the recording can't be made.
   void begin();
   /// Covers the instants to the end, on a thread of its own, and lets the links go. What ends it early, a lost system

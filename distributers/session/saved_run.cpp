@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 
 namespace jarol {
 
@@ -29,11 +30,11 @@ void SavedRun::add(Stop stop) {
 void SavedRun::require_saveable(Duration begin, Duration end) {
   for (const Stop& stop : stops_) {
     if (stop.at < begin)
-      throw std::invalid_argument(stop.option + ": the run " + (begin > Duration{} ? "goes on from " : "begins at ") +
-                                  seconds_text(begin) + " s, after " + seconds_text(stop.at) + " s");
+      throw InputError(stop.option + ": the run " + (begin > Duration{} ? "goes on from " : "begins at ") +
+                       seconds_text(begin) + " s, after " + seconds_text(stop.at) + " s");
     if (stop.at > end)
-      throw std::invalid_argument(stop.option + ": the run ends at " + seconds_text(end) + " s, before " +
-                                  seconds_text(stop.at) + " s");
+      throw InputError(stop.option + ": the run ends at " + seconds_text(end) + " s, before " + seconds_text(stop.at) +
+                       " s");
   }
   if (stops_.empty() && !take_each_) return;
   if (take_each_) next_ = begin - begin % every_ + every_;
@@ -41,7 +42,7 @@ void SavedRun::require_saveable(Duration begin, Duration end) {
     checkpoint_of(run_, noted_);
   } catch (const CheckpointError& wrong) {
     const std::string option = stops_.empty() ? option_of_each_ : stops_.front().option;
-    throw std::invalid_argument(option + ": " + wrong.what());
+    throw InputError(option + ": " + wrong.what());
   }
 }
 

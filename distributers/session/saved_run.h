@@ -36,7 +36,7 @@ class SavedRun : public ExecutorRun {
     every_ = every;
     take_each_ = std::move(take);
   }
-  /// Throws std::invalid_argument where the run can't be saved, or does not come there.
+  /// Throws InputError where the run can't be saved, or does not come there.
   void require_saveable(Duration begin, Duration end);
   void cover() override;
   void close(const Ending& ending, Futex::Time patience) override;

@@ -51,7 +51,7 @@ class Session {
  public:
   /// A graph's file with what it may name, which outlives the session. Throws SpecError with all that is wrong with the
   /// file, the options and the links; UnknownName where nothing fits a name in `fed`; NeedsRealClock;
-  /// NotExecutable, for a number of workers that can't be, too; std::invalid_argument where the execution times or the
+  /// NotExecutable, for a number of workers that can't be, too; InputError where the execution times or the
   /// recording can't have their effect, std::runtime_error where a file of it can't be made; WrongBuild where the
   /// program was compiled with options that give its values another layout or another arithmetic.
   Session(const distributers::Registries& known, const std::string& path, SessionOptions options = {},

@@ -6,6 +6,8 @@
 
 #include "graph/floating_point.h"
 #include "graph/language/problems.h"
+#include "graph/text/article.h"
+#include "graph/text/errors.h"
 
 namespace jarol {
 namespace {
@@ -39,12 +41,11 @@ void require_no_clock(const Loaded& loaded) {
 // `without_channel`: what is fed to communicators alone.
 void require_recordable(const RecordingOptions& recording, const DistributerClass& without_channel) {
   if (recording.checkpoints > Duration{})
-    throw std::invalid_argument(
-        ".recording.checkpoints belongs to a Runner; a session is saved by checkpoint() where it stands");
+    throw InputError(".recording.checkpoints belongs to a Runner; a session is saved by checkpoint() where it stands");
   if (!recording.file.empty() && !without_channel.channels.empty())
-    throw std::invalid_argument(".recording: '" + without_channel.channels.front().name +
-                                "' is fed and has no channel, from which a replay would take its values; give it one "
-                                "in the graph, as in {channel: dune.motion}");
+    throw InputError(".recording: '" + without_channel.channels.front().name +
+                     "' is fed and has no channel, from which a replay would take its values; give it one "
+                     "in the graph, as in {channel: dune.motion}");
 }
 
 }  // namespace
@@ -54,13 +55,10 @@ Session::Run::Run(const distributers::Registries& known, std::shared_ptr<const S
     : note_(options.note ? options.note : no_notes) {
   if (source == nullptr) throw NoSource("a session is of a graph's text; the source is null");
   const DefaultFloatingPoint arithmetic;  // of vehicles and parameters, and of threads that are started here
-  require_workers(options.workers);
   const Overrides overrides{options.profile, options.set, options.no_plugins};
   Loaded loaded =
       feed_in_place_of_links(load_graph(source, known, overrides, options.seed, note_, options.fed), options.fed);
   if (!options.real_clock) require_no_clock(loaded);
-  if (options.real_clock && options.workers > 1)
-    throw NotExecutable("workers belong to the virtual clock; the real one goes by 'platform'");
   require_recordable(options.recording, without_channel_);
   observed = std::make_unique<Observed>(*loaded.graph, outputs_of(*loaded.graph));
   runner_.emplace(std::move(loaded), RunOptions{.end = Duration::max(),
@@ -191,7 +189,8 @@ void Session::Run::feed(std::string_view name, const Type& type, const void* val
     if (channel != c.name) names.push_back(channel);
     if (name != c.name && name != channel) continue;
     if (!same_type(*c.type, type))
-      throw WrongType("'" + std::string(name) + "' takes a " + c.type->name + ", not a " + type.name);
+      throw WrongType("'" + std::string(name) + "' takes " + with_article(c.type->name) + ", not " +
+                      with_article(type.name));
     if (c.distributer && fed_[*c.distributer] != nullptr) return fed_[*c.distributer]->feed(c.channel, value);
     const std::string who = c.distributer ? graph.distributers[*c.distributer].name : c.name;
     throw NotFed("'" + std::string(name) +

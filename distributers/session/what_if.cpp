@@ -1,11 +1,11 @@
 #include "distributers/session/what_if.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "distributers/session/execution.h"
 #include "graph/language/problems.h"
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 #include "graph/text/escape.h"
 #include "runtime/execute/executor_run.h"
 
@@ -40,12 +40,11 @@ void WhatIfs::run(RunSinks& sinks, const MakeSink& make_sink, const std::functio
   if (what_ifs_.empty()) return;
   sinks.catch_up();
   if (const std::string failure = sinks.why_not_all(*kept_); !failure.empty())
-    throw std::runtime_error("what-ifs are not run, as the run is not kept to compare them with: " + failure);
+    throw Unfinished("what-ifs are not run, as the run is not kept to compare them with: " + failure);
   for (std::size_t i = 0; i < what_ifs_.size(); ++i) {
     if (!what_ifs_[i].past) continue;  // which was said
     if (const int signal = wish().signal; signal != 0)
-      throw std::runtime_error("what if " + to_text(what_ifs_[i]) + " is not run, as " +
-                               Ending::of_signal(signal).reason);
+      throw Unfinished("what if " + to_text(what_ifs_[i]) + " is not run, as " + Ending::of_signal(signal).reason);
     const auto beside = make_sink(i);
     outcomes_.push_back(run(what_ifs_[i], beside.get(), wish));
   }
@@ -90,10 +89,10 @@ WhatIfOutcome WhatIfs::run(const WhatIf& what_if, RecordSink* beside, const std:
   const RunEnd end = attend(
       attended, [] {}, wish);
   if (end.failure) std::rethrow_exception(end.failure);
-  if (end.hangs) throw std::runtime_error("what if " + to_text(what_if) + ": a task does not end");
+  if (end.hangs) throw Unfinished("what if " + to_text(what_if) + ": a task does not end");
   // what there is of it is no outcome
   if (end.ending.cause == Ending::Cause::signal)
-    throw std::runtime_error("what if " + to_text(what_if) + " is not run to its end, as " + end.ending.reason);
+    throw Unfinished("what if " + to_text(what_if) + " is not run to its end, as " + end.ending.reason);
   other.disconnect();
   other.sinks().close();
   const std::vector<TrueState> truth = find_true_states(other.graph(), other.channels());

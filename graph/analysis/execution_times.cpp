@@ -1,9 +1,9 @@
 #include "graph/analysis/execution_times.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "graph/analysis/check.h"
+#include "graph/text/errors.h"
 #include "graph/values/seed.h"
 
 namespace jarol::analysis {
@@ -96,11 +96,10 @@ std::int64_t ExecutionTimes::operator()(std::size_t task, std::int64_t activatio
 
 Schedule schedule_of(const Graph& graph, ExecutionTimes times) {
   for (const Task& task : graph.tasks)
-    if (!task.wcet)
-      throw std::invalid_argument("task '" + task.name + "' has no 'wcet', by which tasks are given to cores");
+    if (!task.wcet) throw InputError("task '" + task.name + "' has no 'wcet', by which tasks are given to cores");
   System system = system_of(graph);
   if (!system.offsets_hold)
-    throw std::invalid_argument("'phasing: any' leaves open when tasks are released; state 'phasing: given'");
+    throw InputError("'phasing: any' leaves open when tasks are released; state 'phasing: given'");
   std::vector<std::size_t> core;
   if (system.policy.keeps_core) {
     for (const auto& of_task : check(system).core) core.push_back(of_task.value_or(0));

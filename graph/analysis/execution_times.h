@@ -38,7 +38,7 @@ class ExecutionTimes {
   std::vector<OfTask> tasks_;
 };
 
-/// The schedule of the graph's platform with these. Throws std::invalid_argument where a task has no WCET, or offsets
+/// The schedule of the graph's platform with these. Throws InputError where a task has no WCET, or offsets
 /// do not hold.
 Schedule schedule_of(const Graph& graph, ExecutionTimes times);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "graph/text/article.h"
+
 namespace jarol::expect {
 namespace {
 
@@ -57,7 +59,7 @@ std::string wrong_path(const std::string& name, const Type& type, const std::str
   const auto paths = paths_of(leaves);
   for (const Leaf& leaf : leaves)
     if (leaf.path == path)
-      return "'" + name + (path.empty() ? "" : "." + path) + "' is a " + std::string(leaf.type->name) +
+      return "'" + name + (path.empty() ? "" : "." + path) + "' is " + with_article(leaf.type->name) +
              ", which can't be judged; name a number, a truth value or a choice";
   const bool inner = std::any_of(leaves.begin(), leaves.end(),
                                  [&](const Leaf& leaf) { return path.empty() || leaf.path.starts_with(path + "."); });

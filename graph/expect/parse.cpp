@@ -52,15 +52,17 @@ class Parser {
   Condition state() {
     const Token& begin = in_.now();
     for (const std::string_view word : {"always", "never", "once"})
-      if (in_.is(word)) in_.fail(begin, "it is asked at each instant; leave '" + std::string(word) + "' out");
+      if (in_.is(word))
+        in_.fail(begin, "this condition is evaluated at each instant; leave '" + std::string(word) + "' out");
     if (is_at_reduction())
-      in_.fail(begin, "'" + std::string(begin.text) + "' is one number of a whole run; this is asked at each instant");
+      in_.fail(begin, "'" + std::string(begin.text) +
+                          "' is one number of a whole run; this condition is evaluated at each instant");
     condition_.kind = Condition::Kind::once;
     metric_.value = value_.read();
     metric_.unit = metric_.value.unit;
     read_comparison();
     if (in_.is("after") || in_.is("before") || in_.is("between"))
-      in_.fail(in_.now(), "a window of time does not belong here; it is asked at each instant");
+      in_.fail(in_.now(), "this condition is evaluated at each instant; leave the window of time out");
     in_.require_end();
     return std::move(condition_);
   }
@@ -125,7 +127,7 @@ class Parser {
   double read_width(const std::string& unit) {
     const Token token = in_.now();
     const double width = in_.read_number(unit);
-    if (width < 0) in_.fail(token, "nothing is within less than zero; write how far it may be off");
+    if (width < 0) in_.fail(token, "the tolerance is below zero; write how far it may be off");
     return width;
   }
 

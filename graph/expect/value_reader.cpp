@@ -100,7 +100,7 @@ Value ValueReader::read_name(const Token& token) {
     const Token& distributer = in_.now();
     if (distributer.kind != Token::Kind::word)
       in_.fail(distributer, "the name of a distributer is needed here" + in_.but());
-    if (vehicles_ == nullptr) in_.fail(token, "a true value is not known to who steers; name what is published");
+    if (vehicles_ == nullptr) in_.fail(token, "true values are not available to an operator; name what is published");
     in_.go_on();
     found = find_true(graph_, *vehicles_, std::string(token.text), std::string(distributer.text));
   } else {

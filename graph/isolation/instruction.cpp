@@ -3,9 +3,9 @@
 #include <capstone/capstone.h>
 
 #include <memory>
-#include <stdexcept>
 
 #include "graph/isolation/forbidden.h"
+#include "graph/text/errors.h"
 
 namespace jarol::isolation {
 namespace {
@@ -16,7 +16,7 @@ using Form = Instruction::Form;
 class Disassembler {
  public:
   Disassembler() {
-    if (cs_open(CS_ARCH_X86, CS_MODE_64, &handle_) != CS_ERR_OK) throw std::runtime_error("capstone can't be used");
+    if (cs_open(CS_ARCH_X86, CS_MODE_64, &handle_) != CS_ERR_OK) throw Unfinished("capstone can't be used");
     cs_option(handle_, CS_OPT_DETAIL, CS_OPT_ON);
     instruction_ = cs_malloc(handle_);
   }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 
 #include "graph/isolation/import_list.h"
+#include "graph/text/errors.h"
 
 namespace jarol::isolation {
 namespace {
@@ -76,9 +76,9 @@ void order(std::vector<Symbol>& symbols) {
 }  // namespace
 
 Object::Object(const std::string& path) : file_(path) {
-  if (file_.sections().empty()) throw std::runtime_error("is no object file for x86-64 that can be read");
+  if (file_.sections().empty()) throw InputError("is no object file for x86-64 that can be read");
   if (file_.type() != ET_DYN)
-    throw std::runtime_error("is no shared library; link it with -shared, as graph/plugins/plugin.h says");
+    throw InputError("is no shared library; link it with -shared, as graph/plugins/plugin.h says");
   const Elf64_Shdr* symbols = nullptr;
   for (const Elf64_Shdr& section : file_.sections()) {
     const std::string_view name = file_.name(section);
@@ -87,26 +87,25 @@ Object::Object(const std::string& path) : file_(path) {
     if (place == Place::nowhere || section.sh_size == 0) continue;
     if (place == Place::thread_local_data && section.sh_type == SHT_NOBITS) continue;  // takes no addresses
     const Address end = section.sh_addr + section.sh_size;
-    if (end < section.sh_addr) throw std::runtime_error("is damaged");
+    if (end < section.sh_addr) throw InputError("is damaged");
     if ((place == Place::code || place == Place::constant) && file_.stays_writable(section.sh_addr, end)) {
       if (has_to_be_constant(name))
-        throw std::runtime_error("has its " + std::string(name) +
-                                 " in memory that stays writable; link it without -z norelro, -N and --omagic");
+        throw InputError("has its " + std::string(name) +
+                         " in memory that stays writable; link it without -z norelro, -N and --omagic");
       place = Place::writable;
     }
     sections_.push_back({section.sh_addr, end, place, file_.content(section), is_section_of_stubs(name)});
   }
   std::sort(sections_.begin(), sections_.end(), [](const Section& a, const Section& b) { return a.begin < b.begin; });
   if (symbols == nullptr)
-    throw std::runtime_error(
-        "has no table of symbols, so that its code has no names; link it without -s and don't strip it");
+    throw InputError("has no table of symbols, so that its code has no names; link it without -s and don't strip it");
   read_symbols(*symbols);
   for (const Elf64_Shdr& section : file_.sections()) {
     if ((section.sh_flags & SHF_ALLOC) == 0) continue;
     if (section.sh_type == SHT_RELA) read_pointers(section);
     if (section.sh_type == relative_relocations) read_relative_pointers(section);
     if (section.sh_type == SHT_REL || section.sh_type == android_rel || section.sh_type == android_rela)
-      throw std::runtime_error("has relocations of a form that is not known here; link it without packing them");
+      throw InputError("has relocations of a form that is not known here; link it without packing them");
   }
 }
 
@@ -175,7 +174,7 @@ void Object::read_pointers(const Elf64_Shdr& table) {
   const auto symbols = file_.entries<Elf64_Sym>(names);
   for (const auto& relocation : file_.entries<Elf64_Rela>(table)) {
     if (place_of(relocation.r_offset) == Place::code)
-      throw std::runtime_error("has code that the loader changes; build it with -fPIC, as graph/plugins/plugin.h says");
+      throw InputError("has code that the loader changes; build it with -fPIC, as graph/plugins/plugin.h says");
     pointers_.emplace(relocation.r_offset, pointer_of(relocation, symbols, names));
   }
 }
@@ -187,7 +186,7 @@ void Object::read_relative_pointers(const Elf64_Shdr& table) {
     const Bytes bytes_there = bytes(at, at + word);
     Address value = 0;
     if (bytes_there.size() == word) std::memcpy(&value, bytes_there.data(), word);
-    if (place_of(at) == Place::code || place_of(at) == Place::nowhere) throw std::runtime_error("is damaged");
+    if (place_of(at) == Place::code || place_of(at) == Place::nowhere) throw InputError("is damaged");
     pointers_.emplace(at, Pointer{Pointer::To::address, value, ""});
   };
   Address next = 0;

@@ -35,7 +35,7 @@ enum class Place : std::uint8_t { nowhere, code, constant, offset_table, writabl
 
 class Object {
  public:
-  /// Throws std::runtime_error with words that follow the file's name.
+  /// Throws InputError with words that follow the file's name.
   explicit Object(const std::string& path);
 
   Place place_of(Address address) const;

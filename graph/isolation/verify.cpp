@@ -4,11 +4,11 @@
 #include <deque>
 #include <map>
 #include <set>
-#include <stdexcept>
 #include <string_view>
 
 #include "graph/isolation/closure.h"
 #include "graph/isolation/names.h"
+#include "graph/text/errors.h"
 
 namespace jarol::isolation {
 namespace {
@@ -148,8 +148,7 @@ std::vector<Root> find_tasks(const Object& object) {
   for (const Symbol& function : object.functions())
     if (const std::string task = task_of(function.name); !task.empty()) found[task].push_back(function.begin);
   if (found.empty())
-    throw std::runtime_error(
-        "has no tasks that can be found by their names; name them with JAROL_PLUGIN, and don't strip it");
+    throw InputError("has no tasks that can be found by their names; name them with JAROL_PLUGIN, and don't strip it");
   std::vector<Root> roots;
   for (auto& [task, entries] : found) roots.push_back({task, std::move(entries)});
   return roots;
@@ -158,12 +157,12 @@ std::vector<Root> find_tasks(const Object& object) {
 std::vector<Verdict> verify(const Object& object, const std::vector<Root>& roots, bool own) {
   for (const char* const of_runtime : {"__cxa_throw", "_Unwind_Resume"})
     if (!own && !object.functions_named(of_runtime).empty())
-      throw std::runtime_error(
+      throw InputError(
           "has the runtime of C++ within it, which can't be looked at; link it without -static-libstdc++ and "
           "-static-libgcc");
   if (const char* const sanitizer = sanitizer_of(object); !own && *sanitizer != '\0')
-    throw std::runtime_error(std::string("is built with -fsanitize=") + sanitizer +
-                             ", whose checks reach what is not a task's own; build it without");
+    throw InputError(std::string("is built with -fsanitize=") + sanitizer +
+                     ", whose checks reach what is not a task's own; build it without");
   std::vector<Address> entries;
   for (const Root& root : roots) entries.insert(entries.end(), root.entries.begin(), root.entries.end());
   const Closure closure(object, entries, own);

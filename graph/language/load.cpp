@@ -74,7 +74,7 @@ void read_connections(const Yaml& graph, std::vector<ConnectionSpec>& to, Proble
     return problems.add(yaml->where, "'connections' needs a list of arrows, not " + std::string(kind_name(*yaml)));
   for (const Yaml& child : yaml->children) {
     if (child.kind == Yaml::Kind::mapping) {
-      problems.add(child.where, "annotations of connections are not there yet; write 'from.output -> to.input'");
+      problems.add(child.where, "annotations of connections are not supported yet; write 'from.output -> to.input'");
       continue;
     }
     const std::string_view text = child.text;
@@ -115,7 +115,7 @@ void refuse_later_keys(Yaml& graph, Problems& problems) {
   for (const std::string key : {"modes", "predicates"}) {
     const Yaml* found = graph.find(key);
     if (found == nullptr) continue;
-    problems.add(found->key_where, "'" + key + "' is not there yet; leave it out");
+    problems.add(found->key_where, "'" + key + "' is not supported yet; leave it out");
     std::erase_if(graph.children, [&](const Yaml& child) { return child.key == key; });
   }
 }

@@ -205,15 +205,15 @@ class Builder {
         const bool too_small = spec.heap->value > 0 && spec.heap->value < min;
         if (too_small)
           problems_.add(spec.heap->where, subject + " has a heap of " + std::to_string(spec.heap->value) +
-                                              "B, which holds nothing; the smallest has " + std::to_string(min) +
-                                              "B, one that is needed and not stated 64KiB");
+                                              "B, which is too small; the minimum is " + std::to_string(min) +
+                                              "B, the default 64KiB");
         if (spec.heap->value > max)
-          problems_.add(spec.heap->where, subject + " has a heap of more than 1GiB, the largest there is");
+          problems_.add(spec.heap->where, subject + " has a heap of more than 1GiB, the maximum");
         task.heap = too_small ? default_heap : static_cast<std::size_t>(std::min(spec.heap->value, max));
         if (heaps_ <= max && heaps_ + spec.heap->value > max && spec.heap->value <= max)
           problems_.add(spec.heap->where, subject +
-                                              " has a heap with which those of all tasks are more than 1GiB "
-                                              "together, the most there is");
+                                              " has a heap with which those of all tasks exceed 1GiB together, "
+                                              "the maximum");
         heaps_ += std::min(spec.heap->value, max);
       } else if (task.task_class != nullptr && task.task_class->is_deep()) {
         task.heap = default_heap;

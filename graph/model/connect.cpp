@@ -5,6 +5,8 @@
 #include <set>
 #include <tuple>
 
+#include "graph/text/article.h"
+
 namespace jarol {
 namespace {
 
@@ -63,7 +65,7 @@ class Connector {
     const char* const noun = output ? "output" : "input";
     if (spec.field.empty()) {
       problems_.add(spec.where,
-                    subject() + " is written without its " + noun + "; it has: " + list_of(field_names(fields)));
+                    subject() + " is named without one of its " + noun + "s; it has: " + list_of(field_names(fields)));
       return nullptr;
     }
     const TypeField* found = find_field(fields, spec.field);
@@ -97,8 +99,9 @@ class Connector {
         continue;
       }
       if (!same_type(*from, *to)) {
-        problems_.add(spec.where, "connection " + text_of(spec.from) + " -> " + text_of(spec.to) + " joins a " +
-                                      from->name + " to a " + to->name + "; both ends carry one type");
+        problems_.add(spec.where, "connection " + text_of(spec.from) + " -> " + text_of(spec.to) + " joins " +
+                                      with_article(from->name) + " to " + with_article(to->name) +
+                                      "; both ends must have the same type");
         continue;
       }
       connection.type = from;

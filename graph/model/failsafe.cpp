@@ -74,7 +74,7 @@ class FailsafeReader {
     const std::string& distributer = graph_.distributers[*communicator.distributer].name;
     problems_.add(in ? spec.timeout->where : spec.safe->where,
                   subject_of(spec) +
-                      (in ? " has a 'timeout' that nothing follows; add 'safe: value' to an 'out'"
+                      (in ? " has a 'timeout' without effect; add 'safe: value' to an 'out'"
                           : " has a 'safe' that never comes into force; add 'timeout: 1s' to an 'in'") +
                       " of distributer '" + distributer + "'" +
                       (others.empty() ? ", of which there is none" : ": " + list_of(others)));

@@ -1,9 +1,9 @@
 #include "graph/model/with_wcets.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 
 namespace jarol {
 namespace {
@@ -35,8 +35,7 @@ Edit edit_of(const std::string& text, const TaskSpec& task, Duration wcet) {
   if (task.wcet) {
     const std::size_t at = offset_of(text, task.wcet->where);
     if (text[at] == '>' || text[at] == '|')
-      throw std::invalid_argument("the 'wcet' of task '" + task.name +
-                                  "' is a block of lines; write it on the line of its key");
+      throw InputError("the 'wcet' of task '" + task.name + "' is a block of lines; write it on the line of its key");
     const std::string quote = is_quote(text[at]) ? text.substr(at, 1) : "";
     return {at, scalar_length(text, at), quote + duration_text(wcet) + quote};
   }
@@ -68,14 +67,13 @@ std::string with_wcets(const std::string& text, const GraphSpec& spec, const Gra
     const Edit edit = edit_of(text, task, *wcet);
     const Location& where = task.wcet ? task.wcet->where : task.type->where;
     if (where.source == nullptr || where.source->text != text)
-      throw std::invalid_argument("the 'wcet' of task '" + task.name + "' does not come from the file itself");
+      throw InputError("the 'wcet' of task '" + task.name + "' does not come from the file itself");
     edits.push_back(edit);
   }
   std::sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.at > b.at; });
   for (std::size_t i = 1; i < edits.size(); ++i)
     if (edits[i].at == edits[i - 1].at)
-      throw std::invalid_argument(
-          "two tasks share one place of the file through an alias; write their 'wcet' yourself");
+      throw InputError("two tasks share one place of the file through an alias; write their 'wcet' yourself");
   std::string edited = text;
   for (const Edit& edit : edits) edited.replace(edit.at, edit.length, edit.text);
   return edited;

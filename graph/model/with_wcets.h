@@ -11,7 +11,7 @@
 namespace jarol {
 
 /// The text of a graph's file with these WCETs in the graph's tasks, everything else as it was: a value that is there
-/// is replaced, else `wcet` follows the task's type. Throws std::invalid_argument for what can't be edited so.
+/// is replaced, else `wcet` follows the task's type. Throws InputError for what can't be edited so.
 std::string with_wcets(const std::string& text, const GraphSpec& spec, const Graph& graph,
                        const std::vector<std::optional<Duration>>& wcets);
 

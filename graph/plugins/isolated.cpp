@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <stdexcept>
 
 #include "graph/isolation/way.h"
 #include "graph/plugins/judged_files.h"
 #include "graph/plugins/plugin_build.h"
+#include "graph/text/errors.h"
 
 namespace jarol {
 namespace {
@@ -23,7 +23,7 @@ isolation::Address place_of(const void* function, const std::string& file, const
   std::error_code error;
   const bool known = dladdr(function, &found) != 0 && found.dli_fname != nullptr;
   if (!known || (!fs::equivalent(found.dli_fname, file, error) && fs::path(file) != "/proc/self/exe"))
-    throw std::runtime_error("has a task '" + task + "' whose code lies in another file, where it can't be looked at");
+    throw InputError("has a task '" + task + "' whose code lies in another file, where it can't be looked at");
   return static_cast<isolation::Address>(static_cast<const char*>(function) -
                                          static_cast<const char*>(found.dli_fbase));
 }
@@ -51,7 +51,7 @@ Wrong find_wrong(const Registry& registry, const std::vector<std::string>& types
       const auto way = isolation::way_of(first, *lines);
       wrong[verdict.task] = first.text + (way.empty() ? "" : ", in " + isolation::text_of(way.back()));
     }
-  } catch (const std::runtime_error& error) {
+  } catch (const InputError& error) {
     for (const std::string& type : types) wrong[type] = "'" + plugin + "' " + error.what();
   }
   return wrong;

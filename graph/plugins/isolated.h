@@ -10,7 +10,7 @@
 namespace jarol {
 
 /// Verdicts on some task types whose code lies in the file, in the order of their names. `own`: the file is this
-/// program. Throws std::runtime_error with words that follow the file's name if it can't be read, or a task's code is
+/// program. Throws InputError with words that follow the file's name if it can't be read, or a task's code is
 /// elsewhere.
 std::vector<isolation::Verdict> verify_tasks(const Registry& registry, const std::vector<std::string>& types,
                                              const std::string& file, bool own);

@@ -69,6 +69,17 @@ std::string replaced(std::string_view text, std::string_view (*by)(char)) {
   return result;
 }
 
+// Instead of a character that would be read as markup, in double quotes too; else nothing.
+std::string_view xml_character(char c) {
+  switch (c) {
+    case '&': return "&amp;";
+    case '<': return "&lt;";
+    case '>': return "&gt;";
+    case '"': return "&quot;";
+    default: return "";
+  }
+}
+
 }  // namespace
 
 Character first_character(std::string_view text) {
@@ -94,17 +105,10 @@ std::string printable(std::string_view text) { return escaped(text, ""); }
 std::string printable_lines(std::string_view text) { return escaped(text, "\n\t"); }
 
 std::string xml_text(std::string_view text) {
-  return replaced(printable(text), [](char c) -> std::string_view {
-    switch (c) {
-      case '&': return "&amp;";
-      case '<': return "&lt;";
-      case '>': return "&gt;";
-      case '"': return "&quot;";
-      case '\'': return "&#39;";
-      default: return "";
-    }
-  });
+  return replaced(printable(text), [](char c) -> std::string_view { return c == '\'' ? "&#39;" : xml_character(c); });
 }
+
+std::string xml_attribute(std::string_view text) { return replaced(printable(text), xml_character); }
 
 std::string dot_text(std::string_view text) {
   return replaced(printable(text), [](char c) -> std::string_view {

@@ -28,6 +28,9 @@ std::string printable_lines(std::string_view text);
 /// Printable, and as it stands between the tags or in the quotes of an attribute of XML.
 std::string xml_text(std::string_view text);
 
+/// Printable, and as it stands in the double quotes of an attribute of XML, where a list of fonts has single ones.
+std::string xml_attribute(std::string_view text);
+
 /// Printable, and as it stands in the quotes of a word of DOT.
 std::string dot_text(std::string_view text);
 

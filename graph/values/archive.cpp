@@ -3,6 +3,7 @@
 #include <cstring>
 #include <span>
 
+#include "graph/text/article.h"
 #include "graph/values/pack.h"
 
 namespace jarol {
@@ -31,12 +32,12 @@ void Archive::value(const Type& type, void* value) {
     to_->resize(before + packed_size(type, value));
     pack(type, value, to_->data() + before);
     if (const std::string wrong = wrong_packed(type, std::span(*to_).subspan(before)); !wrong.empty())
-      throw NotSaveable("a " + type.name + " " + wrong);
+      throw NotSaveable(with_article(type.name) + " " + wrong);
     return;
   }
   std::size_t size = 0;
   if (const std::string wrong = wrong_packed_begin(type, {at_, left()}, size); !wrong.empty())
-    throw ArchiveError("has a " + type.name + " that " + wrong);
+    throw ArchiveError("has " + with_article(type.name) + " that " + wrong);
   unpack(type, at_, value);
   at_ += size;
 }

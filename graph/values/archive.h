@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "graph/text/errors.h"
+
 namespace jarol {
 
 struct Type;
@@ -25,8 +27,8 @@ struct ArchiveError : std::runtime_error {
 };
 
 /// What has state that it can't save; the text says what.
-struct NotSaveable : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct NotSaveable : InputError {
+  using InputError::InputError;
 };
 
 class Archive {

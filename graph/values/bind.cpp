@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "graph/language/quantities.h"
+#include "graph/text/article.h"
 
 namespace jarol {
 namespace {
@@ -23,9 +24,9 @@ std::string wanted(const Type& type, const std::string& unit, const FieldRange& 
   return range.is_stated() ? text + " " + range_text(type, range) : text;
 }
 
-std::string article(const std::string& noun) {
-  if (noun.starts_with("one of ")) return noun;
-  return (std::string("aeiou").find(noun[0]) == std::string::npos || noun.starts_with("uint") ? "a " : "an ") + noun;
+std::string wanted_with_article(const Type& type, const std::string& unit, const FieldRange& range) {
+  const std::string text = wanted(type, unit, range);
+  return type.kind == Kind::enumeration ? text : with_article(text);
 }
 
 void bind_as(const Yaml& yaml, const Type& type, const std::string& unit, const FieldRange& range, void* value,
@@ -77,7 +78,7 @@ void bind_as(const Yaml& yaml, const Type& type, const std::string& unit, const 
                              : type.kind == Kind::sequence   ? "a list of elements of type " + type.element->name
                              : expected == Yaml::Kind::sequence
                                  ? "a list of " + std::to_string(type.count) + " elements"
-                                 : article(wanted(type, unit, range));
+                                 : wanted_with_article(type, unit, range);
     problems.add(yaml.where, subject + " needs " + need + ", not " + std::string(kind_name(yaml)));
     return;
   }
@@ -89,8 +90,8 @@ void bind_as(const Yaml& yaml, const Type& type, const std::string& unit, const 
       yaml.quoted && !text ? "is in quotes and so a string" : parse_scalar(type, yaml.text, unit, value);
   if (wrong.empty() && range.is_stated() && !range.has(read_ranged(type, value))) wrong = "is outside";
   if (wrong.empty()) return;
-  problems.add(yaml.where,
-               subject + " needs " + article(wanted(type, unit, range)) + ", not '" + yaml.text + "'; that " + wrong);
+  problems.add(yaml.where, subject + " needs " + wanted_with_article(type, unit, range) + ", not '" + yaml.text +
+                               "'; that " + wrong);
 }
 
 void add_leaves(const Type& type, const std::string& path, const std::string& unit, std::size_t offset,

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "graph/language/inputs.h"
+#include "graph/text/errors.h"
 #include "graph/values/digest.h"
 #include "runtime/files/atomic_file.h"
 
@@ -115,8 +116,7 @@ void Checkpoint::require_writable(const std::string& path) {
     if (!std::filesystem::is_regular_file(path, none)) return;  // it is written in place
     const Archive::Bytes first = first_bytes(path, magic.size());
     if (!first.empty() && text_of(first.data(), first.size()) != magic)
-      throw std::runtime_error("can't write '" + path +
-                               "': it is there and no checkpoint; choose another file, or remove it");
+      throw InputError("can't write '" + path + "': it is there and no checkpoint; choose another file, or remove it");
   }
   const AtomicFile made_and_gone(path);
 }

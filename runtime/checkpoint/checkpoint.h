@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "graph/text/errors.h"
 #include "graph/values/archive.h"
 #include "graph/values/type_of.h"
 #include "runtime/checkpoint/run_origin.h"
@@ -14,8 +15,8 @@
 namespace jarol {
 
 /// No checkpoint, one of something else, or what can't be saved; why, and with a file its name.
-struct CheckpointError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct CheckpointError : InputError {
+  using InputError::InputError;
 };
 
 class Checkpoint {
@@ -51,9 +52,9 @@ class Checkpoint {
     return true;
   }
 
-  /// The file is there as a whole or not at all. Throws std::runtime_error.
+  /// The file is there as a whole or not at all. Throws std::system_error.
   void write(const std::string& path) const;
-  /// Before a run that is to be saved there. Throws std::runtime_error where another file stands, std::system_error
+  /// Before a run that is to be saved there. Throws InputError where another file stands, std::system_error
   /// where none can be made.
   static void require_writable(const std::string& path);
   /// Throws CheckpointError.

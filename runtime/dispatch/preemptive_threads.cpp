@@ -4,12 +4,12 @@
 #include <bit>
 #include <cstring>
 #include <future>
-#include <stdexcept>
 #include <system_error>
 #include <tuple>
 
 #include "graph/floating_point.h"
 #include "graph/model/stages.h"
+#include "graph/text/errors.h"
 #include "graph/values/heap.h"
 #include "runtime/machine/futex.h"
 #include "runtime/machine/running_task.h"
@@ -46,9 +46,9 @@ void PreemptiveThreads::make_jobs() {
   std::size_t size = line;
   for (const Task& task : graph_.tasks) {
     if (task.task_class->in->is_deep())
-      throw std::invalid_argument("task '" + task.name +
-                                  "' has an input of changing size, which only one core with a table can hand over; "
-                                  "choose platform: {cores: 1, policy: table}");
+      throw InputError("task '" + task.name +
+                       "' has an input of changing size, which only one core with a table can hand over; "
+                       "choose platform: {cores: 1, policy: table}");
     size += rounded(task.task_class->in->size);
   }
   latched_.resize(size);
@@ -96,9 +96,9 @@ void PreemptiveThreads::begin(std::span<const analysis::TaskThread> threads) {
   }
   const auto priority = clock_.options().priority;
   if (priority && *priority <= static_cast<int>(levels))
-    throw std::invalid_argument("SCHED_FIFO priority " + std::to_string(*priority) + " is too low; tasks take " +
-                                std::to_string(levels) + " below it, so that it has to be " +
-                                std::to_string(levels + 1) + " at least");
+    throw InputError("SCHED_FIFO priority " + std::to_string(*priority) + " is too low; tasks take " +
+                     std::to_string(levels) + " below it, so that it has to be " + std::to_string(levels + 1) +
+                     " at least");
   cores_ = std::vector<Core>(cores);
   std::vector<std::future<std::vector<std::string>>> prepared;
   for (std::size_t i = 0; i < threads.size(); ++i) {
@@ -118,7 +118,7 @@ void PreemptiveThreads::begin(std::span<const analysis::TaskThread> threads) {
       });
     } catch (const std::system_error& error) {
       end();
-      throw std::runtime_error("there is no thread to be had for tasks: " + std::string(error.what()));
+      throw Unfinished("no thread can be started for tasks: " + std::string(error.what()));
     }
   }
   for (auto& of_thread : prepared)

@@ -24,8 +24,8 @@ namespace jarol {
 class PreemptiveThreads {
  public:
   /// Begins the threads, with the priorities, CPUs and slack of the clock's options. All outlive them. Throws
-  /// std::invalid_argument for an input of changing size, and for a priority that leaves none for the threads;
-  /// std::runtime_error where the system has no more threads.
+  /// InputError for an input of changing size, and for a priority that leaves none for the threads;
+  /// Unfinished where the system has no more threads.
   PreemptiveThreads(RunState& state, RealClock& clock, std::span<const analysis::TaskThread> threads);
   ~PreemptiveThreads();
   PreemptiveThreads(const PreemptiveThreads&) = delete;

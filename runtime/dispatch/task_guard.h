@@ -12,7 +12,7 @@ namespace jarol {
 
 class TaskGuard {
  public:
-  /// There is one at a time, made by the main thread. Throws std::runtime_error where there is none to be had.
+  /// There is one at a time, made by the main thread. Throws Unfinished where there is none to be had.
   TaskGuard();
   ~TaskGuard();
   TaskGuard(const TaskGuard&) = delete;

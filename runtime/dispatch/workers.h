@@ -19,7 +19,7 @@ class Workers {
   using Job = void (*)(void* context, std::size_t part);
 
   /// `count` workers, of which the caller of `run` is one, at least 1; they share `parts` parts. Throws
-  /// std::system_error where there is no thread to be had.
+  /// std::system_error where no thread can be started.
   Workers(std::size_t count, std::size_t parts);
   ~Workers();
   Workers(const Workers&) = delete;

@@ -7,11 +7,11 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <stdexcept>
 #include <system_error>
 #include <utility>
 
 #include "graph/language/inputs.h"
+#include "graph/text/errors.h"
 #include "runtime/files/in_place.h"
 #include "runtime/files/sync.h"
 #include "runtime/files/temporary_files.h"
@@ -157,8 +157,7 @@ void AtomicFile::commit() {
 void require_no_input(const std::string& path) {
   const std::string input = input_at(path);
   if (!input.empty())
-    throw std::invalid_argument("can't write '" + path + "': it is '" + input +
-                                "', which was read; choose another file");
+    throw InputError("can't write '" + path + "': it is '" + input + "', which was read; choose another file");
 }
 
 }  // namespace jarol

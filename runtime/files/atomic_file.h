@@ -42,7 +42,7 @@ class AtomicFile {
 /// Where a link leads, also where nothing stands there yet.
 std::filesystem::path target_of(const std::string& path);
 
-/// Throws std::invalid_argument, "can't write 'path': ...", where that is a file that the process has read.
+/// Throws InputError, "can't write 'path': ...", where that is a file that the process has read.
 void require_no_input(const std::string& path);
 
 }  // namespace jarol

@@ -9,9 +9,9 @@
 #include <cerrno>
 #include <cstddef>
 #include <filesystem>
-#include <stdexcept>
 #include <utility>
 
+#include "graph/text/errors.h"
 #include "graph/values/digest.h"
 
 namespace jarol {
@@ -42,8 +42,7 @@ OutputLock::OutputLock(const std::string& path) {
   const int reason = errno;
   ::close(std::exchange(socket_, -1));
   if (reason == EADDRINUSE)
-    throw std::runtime_error("can't write '" + path +
-                             "': another run writes it; choose another file, or wait until that ends");
+    throw InputError("can't write '" + path + "': another run writes it; choose another file, or wait until that ends");
 }
 
 OutputLock::~OutputLock() {

@@ -10,7 +10,7 @@ namespace jarol {
 class OutputLock {
  public:
   OutputLock() = default;
-  /// Throws std::runtime_error, "can't write 'path': another process does; ...".
+  /// Throws InputError, "can't write 'path': another process does; ...".
   explicit OutputLock(const std::string& path);
   ~OutputLock();
   OutputLock(OutputLock&& other) noexcept;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "graph/floating_point.h"
+#include "graph/text/errors.h"
 #include "runtime/execute/expectations.h"
 #include "runtime/jarol/threads_order.h"
 
@@ -44,14 +44,14 @@ Duration JarolCore::choose_period() const {
     if (on_vehicle(i)) vehicle = std::min(vehicle, period);
   }
   for (const Task& task : graph_.tasks) any = std::min(any, task.period);
-  if (any == Duration::max()) throw std::invalid_argument("a graph without tasks and communicators has nothing to run");
+  if (any == Duration::max()) throw InputError("a graph without tasks and communicators has nothing to run");
   return vehicle != Duration::max() ? vehicle : any;
 }
 
 std::int64_t JarolCore::rounds_of(const std::string& what, Duration period) const {
   if (period.count() % period_.count() != 0)
-    throw std::invalid_argument("threads count in periods of the vehicle's channels, " + duration_text(period_) + "; " +
-                                what + " has " + duration_text(period) + ", which is no multiple of it");
+    throw InputError("threads count in periods of the vehicle's channels, " + duration_text(period_) + "; " + what +
+                     " has " + duration_text(period) + ", which is no multiple of it");
   return period.count() / period_.count();
 }
 
@@ -67,8 +67,8 @@ void JarolCore::gather() {
     for (const CommunicatorAction& action : *actions) {
       const Communicator& c = graph_.communicators[action.communicator];
       if (c.type->is_deep())
-        throw std::invalid_argument("communicator '" + c.name +
-                                    "' carries a value of changing size, which threads can't hand over");
+        throw InputError("communicator '" + c.name +
+                         "' carries a value of changing size, which threads can't hand over");
       Carried carried;
       carried.communicator = action.communicator;
       carried.action = &action;
@@ -121,7 +121,7 @@ void JarolCore::begin(Part& part, Signal& signal, const std::function<void()>& p
       Futex::wake_all(part.ended);
     });
   } catch (const std::system_error& error) {
-    fail(std::make_exception_ptr(std::runtime_error("there is no thread to be had: " + std::string(error.what()))));
+    fail(std::make_exception_ptr(Unfinished("no thread can be started: " + std::string(error.what()))));
   }
 }
 

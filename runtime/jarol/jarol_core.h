@@ -39,7 +39,7 @@ struct ThreadsReport {
 class JarolCore {
  public:
   /// One ExternalSystem per distributer of the graph, in its order. The graph outlives the core. Throws
-  /// std::invalid_argument for a graph whose periods can't be counted in those of the sensor thread, or with deep
+  /// InputError for a graph whose periods can't be counted in those of the sensor thread, or with deep
   /// values between threads. `recorder`: gets what is published, and true values for the conditions of the graph; or
   /// null.
   JarolCore(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSystem>> channels, Recorder* recorder = nullptr);
@@ -47,7 +47,7 @@ class JarolCore {
 
   /// Covers the instants before `end`, unless a fault stops it or it is interrupted; once. `prepare` is called in each
   /// thread, in the caller's last, before the clock starts. The first exception that a thread ends with is thrown here
-  /// when all have ended; std::runtime_error where the system has no more threads.
+  /// when all have ended; Unfinished where the system has no more threads.
   void run_for(
       Duration end, const std::function<void()>& prepare = [] {});
   /// The same without the end of its threads, which `finish` waits for; what one of them has thrown by then.

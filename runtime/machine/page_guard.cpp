@@ -10,9 +10,9 @@
 
 #include <algorithm>
 #include <new>
-#include <stdexcept>
 #include <utility>
 
+#include "graph/text/errors.h"
 #include "runtime/machine/map_line.h"
 
 namespace jarol {
@@ -42,17 +42,17 @@ std::uintptr_t find_stack_size() {
 
 PageGuard::PageGuard() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  throw std::runtime_error("a program with sanitizers writes to memory of its own all the time");
+  throw Unfinished("a program with sanitizers writes to memory of its own all the time");
 #endif
   if (::sysconf(_SC_PAGESIZE) != static_cast<long>(page))
-    throw std::runtime_error("this machine's pages are not of 4096 bytes");
+    throw Unfinished("this machine's pages are not of 4096 bytes");
   maps_ = ::open("/proc/self/maps", O_RDONLY | O_CLOEXEC);
-  if (maps_ < 0) throw std::runtime_error("/proc/self/maps can't be read");
+  if (maps_ < 0) throw Unfinished("/proc/self/maps can't be read");
   // shared, so that no other mapping becomes one with it
   void* const flags = ::mmap(nullptr, page, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (flags == MAP_FAILED) {
     ::close(maps_);
-    throw std::runtime_error("there is no memory for it");
+    throw Unfinished("there is no memory for it");
   }
   static_assert(sizeof(Flags) <= page);
   flags_ = new (flags) Flags;

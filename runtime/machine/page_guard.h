@@ -22,7 +22,7 @@ namespace jarol {
 class PageGuard {
  public:
   /// There is one at a time. Made by the main thread, whose stack stays writable as those of all threads do. Throws
-  /// std::runtime_error where there is none to be had.
+  /// Unfinished where there is none to be had.
   PageGuard();
   ~PageGuard();
   PageGuard(const PageGuard&) = delete;

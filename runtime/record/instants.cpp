@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <sstream>
-#include <stdexcept>
 
 #include "graph/language/problems.h"
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 
 namespace jarol {
 namespace {
@@ -67,8 +67,8 @@ std::vector<bool> channels_named(const Recording& recording, const std::string& 
     if (fits) continue;
     std::vector<std::string> names;
     for (const auto& [id, topic] : recording.topics()) names.push_back(topic.channel.topic);
-    throw std::invalid_argument(option + ": the recording has no topic '" + word + "'" + did_you_mean(word, names) +
-                                "; it has: " + list_of(names));
+    throw InputError(option + ": the recording has no topic '" + word + "'" + did_you_mean(word, names) +
+                     "; it has: " + list_of(names));
   }
   return named;
 }

@@ -35,7 +35,7 @@ class RecordedInstants {
 };
 
 /// Which channels have a topic that fits one of the patterns, with * for any part, separated by commas. Throws
-/// std::invalid_argument, "`option`: ...", where one fits none.
+/// InputError, "`option`: ...", where one fits none.
 std::vector<bool> channels_named(const Recording& recording, const std::string& option, const std::string& patterns);
 
 /// The channels of published values.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <utility>
 
+#include "graph/text/errors.h"
 #include "graph/values/pack.h"
 
 namespace jarol {
@@ -196,7 +196,7 @@ void Recorder::close() {
   bell_.ring();
   thread_.join();
   failures_.rethrow_all();
-  if (!lost_.empty()) throw std::length_error(lost_);
+  if (!lost_.empty()) throw InputError(lost_);
 }
 
 void Recorder::publish_chunk() {

@@ -83,7 +83,7 @@ class Recorder {
   const std::string& lost() const { return lost_; }
 
   /// Hands on all that was appended, ends the thread and lets the sinks finish; throws what a sink threw, or, of
-  /// several, std::runtime_error with all of it. One that has thrown gets nothing more and does not finish; the others
+  /// several, Unfinished with all of it. One that has thrown gets nothing more and does not finish; the others
   /// get all.
   void close();
   /// What that sink has thrown; empty: nothing. After `catch_up` or `close`.

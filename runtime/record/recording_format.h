@@ -3,21 +3,21 @@
 #pragma once
 
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "graph/language/load.h"
 #include "graph/model/graph.h"
+#include "graph/text/errors.h"
 #include "graph/values/describe.h"
 #include "graph/values/sequence.h"
 
 namespace jarol {
 
 /// What can't be replayed or looked at, and why.
-struct LogError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct LogError : InputError {
+  using InputError::InputError;
 };
 
 /// A recording that is not as it was written.

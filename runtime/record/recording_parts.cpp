@@ -15,6 +15,7 @@
 #include <system_error>
 #include <utility>
 
+#include "graph/text/errors.h"
 #include "runtime/files/atomic_file.h"
 #include "runtime/files/in_place.h"
 #include "runtime/files/sync.h"
@@ -65,8 +66,8 @@ std::FILE* open_alone(const std::string& path) {
   const int reason = errno;
   ::close(descriptor);
   if (taken)
-    throw std::runtime_error("can't write '" + path +
-                             "': another run writes it by another name; choose another file, or wait until that ends");
+    throw InputError("can't write '" + path +
+                     "': another run writes it by another name; choose another file, or wait until that ends");
   errno = reason;
   return nullptr;
 }
@@ -77,8 +78,7 @@ OutputLock lock_replaceable(const std::string& path, std::size_t number) {
   OutputLock lock(target_of(path));
   // nobody has named the later ones
   if (!may_be_replaced(path) || (is_special(path) && number > 1))
-    throw std::runtime_error("can't write '" + path +
-                             "': it is there and no recording; choose another file, or remove it");
+    throw InputError("can't write '" + path + "': it is there and no recording; choose another file, or remove it");
   return lock;
 }
 
@@ -204,8 +204,7 @@ void RecordingParts::close_part() {
 void RecordingParts::close() {
   close_part();
   if (!moved_.empty())
-    throw std::runtime_error("'" + moved_ +
-                             "' is not there any more: it was moved, removed or replaced while it was written");
+    throw Unfinished("'" + moved_ + "' is not there any more: it was moved, removed or replaced while it was written");
 }
 
 void RecordingParts::fail(int reason) const { fail_to_write(part_.path, reason); }

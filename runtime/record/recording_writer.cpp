@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "graph/text/errors.h"
 #include "graph/values/type_of.h"
 #include "runtime/record/ros2msg.h"
 #include "runtime/record/select_outputs.h"
@@ -31,8 +32,8 @@ RecordingWriter::~RecordingWriter() {
 RecordedTopic RecordingWriter::topic(std::string name, const Type& type, mcap::Texts metadata) {
   constexpr std::size_t max = 65535;
   if (channels_.size() == max)
-    throw std::invalid_argument("the graph has more outputs than the " + std::to_string(max) +
-                                " that a recording has room for; record fewer by --record-what");
+    throw InputError("the graph has more outputs than the " + std::to_string(max) +
+                     " that a recording has room for; record fewer by --record-what");
   MessageSchema schema = schema_of(type);
   // one for all types that look the same, and a name for each
   std::uint16_t id = 0;

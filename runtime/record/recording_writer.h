@@ -17,7 +17,7 @@ class RecordingWriter {
  public:
   /// `header` without inputs, truths and tasks, which are the graph's; its `what` says which outputs are recorded.
   /// `truths`: by distributer the type of what is known of its vehicle, or null; recorded where all is. Throws
-  /// std::invalid_argument if `what` names nothing.
+  /// InputError if `what` names nothing.
   RecordingWriter(std::string path, RecordingHeader header, std::vector<RecordedFile> files, const Graph& graph,
                   mcap::Compression compression = mcap::Compression::lz4, const std::vector<const Type*>& truths = {});
   ~RecordingWriter();

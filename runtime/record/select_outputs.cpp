@@ -4,9 +4,9 @@
 
 #include <map>
 #include <sstream>
-#include <stdexcept>
 
 #include "graph/language/problems.h"
+#include "graph/text/errors.h"
 
 namespace jarol {
 namespace {
@@ -42,8 +42,8 @@ std::vector<SelectedOutput> select_outputs(const Graph& graph, const std::string
     if (fits) continue;
     std::vector<std::string> names;
     for (const SelectedOutput& output : outputs) names.push_back(output.name);
-    throw std::invalid_argument("--record-what: nothing that is published has the name '" + word + "'" +
-                                did_you_mean(word, names) + "; there are: all, inputs, " + list_of(names));
+    throw InputError("--record-what: nothing that is published has the name '" + word + "'" +
+                     did_you_mean(word, names) + "; there are: all, inputs, " + list_of(names));
   }
   return outputs;
 }

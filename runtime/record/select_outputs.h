@@ -16,7 +16,7 @@ struct SelectedOutput : Output {
 };
 
 /// All outputs_of the graph. `what`: "all", "inputs" for none of them, or names with * for any part, as in
-/// "depth.*,from_dune". Throws std::invalid_argument where one fits nothing.
+/// "depth.*,from_dune". Throws InputError where one fits nothing.
 std::vector<SelectedOutput> select_outputs(const Graph& graph, const std::string& what);
 
 }  // namespace jarol

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "graph/text/errors.h"
+
 namespace jarol {
 
 void SinkFailures::note(const RecordSink* sink) {
@@ -29,7 +31,7 @@ void SinkFailures::rethrow_all() const {
   if (failed_.size() < 2) return rethrow_first();
   std::string all;
   for (const Failed& failed : failed_) all += (all.empty() ? "" : "; ") + failed.why;
-  throw std::runtime_error(all);
+  throw Unfinished(all);
 }
 
 }  // namespace jarol

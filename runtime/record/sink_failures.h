@@ -19,7 +19,7 @@ class SinkFailures {
   std::string of(const RecordSink& sink) const;
   /// Throws the first.
   void rethrow_first() const;
-  /// Throws it, or, of several, std::runtime_error with all of it.
+  /// Throws it, or, of several, Unfinished with all of it.
   void rethrow_all() const;
 
  private:

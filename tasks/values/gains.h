@@ -18,21 +18,21 @@ struct PiddGains {
 /// Gains that the operator sent in flight, if any.
 struct ReceivedGains {
   PiddGains gains{};
-  bool told = false;
+  bool received = false;
 
-  const PiddGains& value_or(const PiddGains& own) const { return told ? gains : own; }
+  const PiddGains& value_or(const PiddGains& own) const { return received ? gains : own; }
 
-  static constexpr auto fields() { return describe(field<&ReceivedGains::gains>(), field<&ReceivedGains::told>()); }
+  static constexpr auto fields() { return describe(field<&ReceivedGains::gains>(), field<&ReceivedGains::received>()); }
 };
 
 struct ReceivedSignal {
   double signal = 0;
-  bool told = false;
+  bool received = false;
 
-  double value_or(double own) const { return told ? signal : own; }
+  double value_or(double own) const { return received ? signal : own; }
 
   static constexpr auto fields() {
-    return describe(field<&ReceivedSignal::signal>("", "0 to 16000"), field<&ReceivedSignal::told>());
+    return describe(field<&ReceivedSignal::signal>("", "0 to 16000"), field<&ReceivedSignal::received>());
   }
 };
 

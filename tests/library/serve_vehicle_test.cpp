@@ -59,7 +59,7 @@ TEST_CASE("what is wrong with a vehicle and its link is reported at once") {
   CHECK_THROWS_WITH_AS(
       jarol::serve_vehicle("submarin", "{type: udp, listen: 0}"),
       "there is no vehicle 'submarin'; did you mean 'submarine'?; this build has: helicopter, submarine",
-      std::invalid_argument);
+      jarol::InputError);
   CHECK_THROWS_WITH_AS(
       jarol::serve_vehicle("submarine", "{type: udp, listn: 0}", {.set = {"sea.densty=1025"}}),
       ".set:1:1: error: vehicle 'submarine' parameter 'sea' has no field 'densty'; did you mean 'density'?; it has: "
@@ -80,5 +80,5 @@ TEST_CASE("what is wrong with a vehicle and its link is reported at once") {
                        jarol::SpecError);
   CHECK_THROWS_WITH_AS(
       jarol::serve_vehicle("helicopter", "{type: udp, listen: 0}", {}, {.telemetry = jarol::Telemetry::true_state}),
-      "there is no message of a helicopter's true state", std::invalid_argument);
+      "there is no message of a helicopter's true state", jarol::InputError);
 }

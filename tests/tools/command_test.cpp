@@ -90,7 +90,7 @@ tasks:
 
   TEST_CASE("a stack that is too small is reported in words") {
     const Result refused = run_jarol("run specs/exolauv.yaml", "2>&1", "ulimit -s 64; " JAROL_COMMAND);
-    CHECK(refused.exit_code == 2);
+    CHECK(refused.exit_code == 3);
     CHECK(refused.output == "error: the stack is limited to 64 KiB; it needs 256 KiB, as 'ulimit -s 256' gives it\n");
   }
 

@@ -86,7 +86,7 @@ TEST_SUITE("tools/vehicle") {
     for (std::size_t i = 0; i <= 20; ++i) CHECK(some[1 + i] == all[1 + 5 * i]);
   }
 
-  TEST_CASE("a row holds until the next, an empty cell keeps what was, a column that lacks is at rest") {
+  TEST_CASE("a row holds until the next, an empty cell keeps what was, a column that is missing is at rest") {
     const TemporaryFolder folder;
     const auto brief = folder.write("brief.csv", "time,fin0,thruster\n0,0.1,0.5\n20,,0.2\n25,,\n");
     std::string text = "time,thruster,fin0,fin1,fin2,fin3\n";

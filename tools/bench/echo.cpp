@@ -4,13 +4,13 @@
 #include <atomic>
 #include <cstring>
 #include <memory>
-#include <stdexcept>
 #include <thread>
 
 #include "distributers/interfaces/typed.h"
 #include "distributers/links/linked.h"
 #include "distributers/links/udp.h"
 #include "distributers/messages/javiator.h"
+#include "graph/text/errors.h"
 #include "runtime/execute/executor.h"
 #include "tools/bench/graphs.h"
 #include "tools/bench/timing.h"
@@ -32,7 +32,7 @@ const Address& any_port() {
 Descriptor udp_socket(const Address& bound) {
   Descriptor made(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   if (!made || bind(made.get(), bound.get(), bound.size()) != 0)
-    throw std::runtime_error("udp_echo: there is no socket to be had");
+    throw Unfinished("udp_echo: there is no socket to be had");
   return made;
 }
 
@@ -70,7 +70,7 @@ class Asker {
           std::memcmp(answer.data(), packet.data(), packet.size()) == 0)
         return;
     }
-    throw std::runtime_error("udp_echo: no answer");
+    throw Unfinished("udp_echo: no answer");
   }
 
   Descriptor socket_;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
-#include <stdexcept>
 
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 #include "tools/bench/checking.h"
 #include "tools/bench/clock.h"
 #include "tools/bench/deep.h"
@@ -193,8 +193,8 @@ std::vector<std::string> figure_names() {
 Figure measure(const std::string& name, int repeats) {
   for (const Entry& entry : entries())
     if (entry.name == name) return entry.measure(name, repeats);
-  throw std::invalid_argument("there is no figure '" + name + "'" + did_you_mean(name, figure_names()) +
-                              "; there are: " + list_of(figure_names()));
+  throw InputError("there is no figure '" + name + "'" + did_you_mean(name, figure_names()) +
+                   "; there are: " + list_of(figure_names()));
 }
 
 }  // namespace jarol::bench

@@ -11,9 +11,9 @@
 
 #include <algorithm>
 #include <optional>
-#include <stdexcept>
 #include <vector>
 
+#include "graph/text/errors.h"
 #include "runtime/execute/executor.h"
 #include "tools/bench/clock.h"
 #include "tools/bench/graphs.h"
@@ -30,9 +30,9 @@ class Watchers {
  public:
   Watchers(const std::string& url, int count, bool reads) {
     int ready[2];
-    if (::pipe2(ready, O_CLOEXEC) != 0) throw std::runtime_error("the benchmark has no pipe");
+    if (::pipe2(ready, O_CLOEXEC) != 0) throw Unfinished("the benchmark has no pipe");
     child_ = ::fork();
-    if (child_ < 0) throw std::runtime_error("the benchmark has no process for those who watch");
+    if (child_ < 0) throw Unfinished("the benchmark has no process for those who watch");
     if (child_ == 0) {
       watch(url, count, reads, ready[1]);
       ::_exit(1);
@@ -41,7 +41,7 @@ class Watchers {
     char all = 0;
     const bool are_there = ::read(ready[0], &all, 1) == 1;
     ::close(ready[0]);
-    if (!are_there) throw std::runtime_error("the benchmark's watchers were not let in");
+    if (!are_there) throw Unfinished("the benchmark's watchers were not let in");
   }
   ~Watchers() {
     ::kill(child_, SIGKILL);

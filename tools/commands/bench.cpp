@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/language/problems.h"
+#include "graph/text/errors.h"
 #include "tools/bench/figures.h"
 #include "tools/commands/commands.h"
 #include "tools/report/command_line.h"
@@ -26,8 +27,8 @@ int run_bench(const BenchOptions& options) {
   const auto known = bench::figure_names();
   for (const std::string& name : names)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw std::invalid_argument("there is no figure '" + name + "'" + did_you_mean(name, known) +
-                                  "; there are: " + list_of(known));
+      throw InputError("there is no figure '" + name + "'" + did_you_mean(name, known) +
+                       "; there are: " + list_of(known));
   auto figures = nlohmann::ordered_json::array();
   bool all_met = true;
   if (!options.json)

@@ -13,6 +13,7 @@
 #include "distributers/campaign/ranks.h"
 #include "distributers/campaign/statement.h"
 #include "distributers/campaign/summary.h"
+#include "graph/text/errors.h"
 #include "graph/text/escape.h"
 #include "tools/commands/campaign/campaign_report.h"
 #include "tools/commands/campaign/outputs.h"
@@ -77,10 +78,9 @@ struct Stated {
         graphs(source),
         campaign(state_campaign(graphs, wishes_of(options))) {
     if (const std::string wrong = campaign::why_not_in_campaign(graphs.base().graph, campaign.length); !wrong.empty())
-      throw std::invalid_argument("'" + options.file + "' is not for a campaign: " + wrong);
+      throw InputError("'" + options.file + "' is not for a campaign: " + wrong);
     if (const std::string wrong = campaign::wrong_runs(campaign); !wrong.empty())
-      throw std::invalid_argument("'" + options.file + "' and its options make no campaign: " + wrong +
-                                  ", as in --runs 1000");
+      throw InputError("'" + options.file + "' and its options make no campaign: " + wrong + ", as in --runs 1000");
     identity = identity_of(source, graphs, campaign, options.seed, program, files.read());
     graphs.close(files.read());
     draws.emplace(campaign, options.seed);
@@ -144,11 +144,11 @@ int run(const CampaignOptions& options) {
   require_apart({{"FILE", options.file}},
                 {{"--results", results_file}, {"--csv", options.csv}, {"--report", options.report}});
   if (results_file == ":memory:")
-    throw std::invalid_argument(
+    throw InputError(
         "--results: ':memory:' is no file, and results that end with the process are of no "
         "use; name a file, as in --results campaign.sqlite");
   if (options.report == "-")
-    throw std::invalid_argument("--report: '-' is no file; a page is opened by its name, as in --report campaign.html");
+    throw InputError("--report: '-' is no file; a page is opened by its name, as in --report campaign.html");
   require_extension({"--report", options.report}, ".html", "a page in HTML");
   const Shard shard = shard_of(options.shard);
   Stated stated(options, program);
@@ -290,11 +290,7 @@ void add_campaign(CommandLine& line, int& exit_code) {
       "When all runs (of --shard) are there: find, by more runs, the mildest values, nearest to the middle of a range "
       "or first in a list, with which the first run that is not good, and was not refused, fails as it did");
   command->add_flag("--json", options->json, "One JSON object instead of text");
-  command->callback([options, &exit_code] {
-    try {
-      exit_code = run(*options);
-    } catch (const campaign::ResultsError& refused) { throw Unfinished(refused.what()); }
-  });
+  command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace jarol::tools

@@ -8,13 +8,13 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <thread>
 
 #include "distributers/session/checked_graph.h"
 #include "graph/analysis/random_graphs.h"
 #include "graph/language/key.h"
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 #include "runtime/files/atomic_file.h"
 #include "tools/commands/check/check_report.h"
 #include "tools/commands/check/gantt.h"
@@ -84,7 +84,7 @@ void require_effect(const Command& command, const CheckCommandOptions& options) 
     command.refuse({"--for"},
                    "says how long to measure, and a verdict holds for ever; add --measure or --write, or leave it out");
   if (options.measuring.write && std::find(options.files.begin(), options.files.end(), "-") != options.files.end())
-    throw std::invalid_argument("--write: '-' is stdin, which can't be written; name the graph's file");
+    throw InputError("--write: '-' is stdin, which can't be written; name the graph's file");
   if (options.files.size() > 1) command.refuse({"--svg"}, "names one picture for several files; check them one by one");
 }
 
@@ -98,7 +98,8 @@ struct Checked {
 };
 
 // What was asked for and is not there.
-void note_what_lacks(const CheckReport& report, const CheckCommandOptions& options, std::vector<std::string>& notes) {
+void note_what_is_missing(const CheckReport& report, const CheckCommandOptions& options,
+                          std::vector<std::string>& notes) {
   if (!options.svg.empty() && gantt_svg(*report.graph, report.result).empty())
     notes.push_back("no picture in '" + options.svg + "', as it needs a 'wcet' of every task");
   if (options.sensitivity && !report.sensitivity)
@@ -127,7 +128,7 @@ void check_file(const std::string& file, const CheckCommandOptions& options, Che
   report.remedies = graph.remedies;
   // what was written holds by now
   if (!options.measuring.write) report.measured = std::move(measured);
-  note_what_lacks(report, options, checked.notes);
+  note_what_is_missing(report, options, checked.notes);
   if (const std::string drawn = gantt_svg(*report.graph, report.result); !options.svg.empty() && !drawn.empty()) {
     if (options.svg == "-") {
       checked.picture = drawn;
@@ -196,7 +197,7 @@ int check_files(const CheckCommandOptions& options) {
 }
 
 int write_graphs(const CheckCommandOptions& options) {
-  if (options.folder.empty()) throw std::invalid_argument("--generate needs -o DIR, a folder for the graphs");
+  if (options.folder.empty()) throw InputError("--generate needs -o DIR, a folder for the graphs");
   std::filesystem::create_directories(options.folder);
   analysis::Generation generation = options.generation;
   generation.kind = options.generate;
@@ -205,9 +206,9 @@ int write_graphs(const CheckCommandOptions& options) {
   };
   for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(options.count); ++i)
     if (const std::string path = path_of(generation.seed + i); std::filesystem::exists(path))
-      throw std::invalid_argument("'" + path +
-                                  "' is there, and --generate overwrites nothing; choose another folder or --seed, or "
-                                  "remove it");
+      throw InputError("'" + path +
+                       "' is there, and --generate overwrites nothing; choose another folder or --seed, or "
+                       "remove it");
   for (int i = 0; i < options.count; ++i, ++generation.seed) {
     AtomicFile file(path_of(generation.seed), Replaces::nothing);
     file.write(analysis::generate_graph(generation));
@@ -275,7 +276,7 @@ void add_check(CommandLine& line, int& exit_code) {
   command->callback([options, command, &exit_code] {
     require_effect(*command, *options);
     if (!options->duration.empty()) options->measuring.duration = length_of("--for", options->duration);
-    if (options->generate.empty() && options->files.empty()) throw std::invalid_argument("check needs a FILE, a graph");
+    if (options->generate.empty() && options->files.empty()) throw InputError("check needs a FILE, a graph");
     exit_code = options->generate.empty() ? check_files(*options) : write_graphs(*options);
   });
 }

@@ -7,6 +7,7 @@
 
 #include "distributers/session/guard.h"
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 #include "runtime/machine/arithmetic.h"
 #include "runtime/machine/machine.h"
 #include "runtime/machine/real_clock.h"
@@ -108,7 +109,7 @@ int examine(const DoctorOptions& options) {
   Duration duration{};
   std::string wrong = parse_duration(options.duration, duration);
   if (wrong.empty() && duration < probe_period) wrong = "is less than one period of 1ms";
-  if (!wrong.empty()) throw std::invalid_argument("--for: '" + options.duration + "' " + wrong);
+  if (!wrong.empty()) throw InputError("--for: '" + options.duration + "' " + wrong);
   const MachineFacts facts = find_machine_facts();
   std::vector<Lateness> measured;
   if (const auto ordinary = measure_lateness(probe_period, duration, {})) measured.push_back({"other", *ordinary});

@@ -5,6 +5,7 @@
 #include <memory>
 #include <thread>
 
+#include "graph/text/errors.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/edit/editor.h"
 #include "tools/commands/run/interrupt.h"
@@ -22,10 +23,9 @@ struct EditOptions {
 };
 
 int edit_graph(const EditOptions& options) {
-  if (options.file == "-") throw std::invalid_argument("'-' is stdin, which can't be written; name the graph's file");
+  if (options.file == "-") throw InputError("'-' is stdin, which can't be written; name the graph's file");
   if (std::filesystem::is_other(options.file))
-    throw std::invalid_argument("'" + options.file +
-                                "' is no regular file, which can't be saved; name the graph's file");
+    throw InputError("'" + options.file + "' is no regular file, which can't be saved; name the graph's file");
   const Interruptible interruptible;
   const edit::Editor editor({.file = options.file,
                              .program = std::filesystem::read_symlink("/proc/self/exe"),

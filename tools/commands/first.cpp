@@ -1,6 +1,6 @@
 // The commands that tools/demo builds, in two thirds of the time that all take. tools/build builds the others.
-#include <stdexcept>
 
+#include "graph/text/errors.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/later.h"
 #include "tools/console/view.h"
@@ -10,7 +10,7 @@ namespace jarol::tools {
 namespace {
 
 std::unique_ptr<console::View> watch_nothing(const RunArguments&, const Loaded&, Duration, Pace*) {
-  throw std::invalid_argument("the web pages of --console are not built yet; tools/build builds them");
+  throw InputError("the web pages of --console are not built yet; tools/build builds them");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "tools/commands/commands.h"
 #include "tools/commands/run/load_graph.h"
 #include "tools/commands/run/no_plugins.h"
-#include "tools/drawing/graph/svg.h"
+#include "tools/drawing/graph/graph_svg.h"
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
 #include "tools/report/rest_report.h"

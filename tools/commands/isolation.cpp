@@ -4,10 +4,10 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "graph/isolation/way.h"
 #include "graph/plugins/isolated.h"
+#include "graph/text/errors.h"
 #include "tools/commands/commands.h"
 #include "tools/library/built_in.h"
 #include "tools/report/command_line.h"
@@ -31,11 +31,11 @@ struct Judged {
 };
 
 Judged judge(const std::string& file) {
-  if (!std::filesystem::is_regular_file(file)) throw std::invalid_argument("there is no file '" + file + "'");
+  if (!std::filesystem::is_regular_file(file)) throw InputError("there is no file '" + file + "'");
   try {
     const isolation::Object object(file);
     return {file, file, isolation::verify(object, isolation::find_tasks(object))};
-  } catch (const std::runtime_error& error) { throw std::invalid_argument("'" + file + "' " + error.what()); }
+  } catch (const InputError& error) { throw InputError("'" + file + "' " + error.what()); }
 }
 
 Judged judge_built_in() {
@@ -43,9 +43,7 @@ Judged judge_built_in() {
   const std::string program = "/proc/self/exe";
   try {
     return {"built in", program, verify_tasks(registry, names_of(registry.tasks()), program, true)};
-  } catch (const std::runtime_error& error) {
-    throw std::invalid_argument(std::string("this program ") + error.what());
-  }
+  } catch (const InputError& error) { throw InputError(std::string("this program ") + error.what()); }
 }
 
 std::size_t count_isolated(const Judged& judged) {

@@ -1,7 +1,7 @@
 // jarol log: looks into recordings.
 #include <memory>
-#include <stdexcept>
 
+#include "graph/text/errors.h"
 #include "runtime/record/recording_format.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/log/log_commands.h"
@@ -21,18 +21,17 @@ int look(const Command& command, Words& words) {
   if (!words.from_text.empty()) words.from = duration_of("--from", words.from_text);
   if (!words.until_text.empty()) words.until = duration_of("--until", words.until_text);
   const std::string& what = words.what;
-  if (what == "diff" && words.other.empty())
-    throw std::invalid_argument("jarol log diff compares two recordings; name both");
+  if (what == "diff" && words.other.empty()) throw InputError("jarol log diff compares two recordings; name both");
   const bool has_graph = what == "trace" || what == "report";
   if (what != "diff" && !has_graph && !words.other.empty())
-    throw std::invalid_argument("jarol log " + what + " looks at one recording; leave '" + words.other + "' out");
+    throw InputError("jarol log " + what + " looks at one recording; leave '" + words.other + "' out");
   if (what == "info" || what == "verify" || has_graph)
     command.refuse({"--topic", "--from", "--until"}, "belongs to cat, csv and diff");
   if (what == "diff") command.refuse({"--topic"}, "belongs to cat and csv");
   if (what != "diff") command.refuse({"--common"}, "belongs to diff");
   if (words.until <= words.from)
-    throw std::invalid_argument("--until: '" + words.until_text + "' is not after " +
-                                (words.from_text.empty() ? "the begin" : "--from, '" + words.from_text + "'"));
+    throw InputError("--until: '" + words.until_text + "' is not after " +
+                     (words.from_text.empty() ? "the begin" : "--from, '" + words.from_text + "'"));
   if (what != "csv") command.refuse({"--by-rate"}, "belongs to csv");
   if (!has_graph) command.refuse({"--out"}, "belongs to trace and report");
   if (what == "cat" || what == "csv" || has_graph) command.refuse({"--json"}, "belongs to info, verify and diff");

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "graph/language/inputs.h"
 #include "graph/language/problems.h"
 #include "graph/plugins/plugins.h"
+#include "graph/text/errors.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/run/crash_line.h"
 #include "tools/report/command_line.h"
@@ -34,8 +34,8 @@ void require_stack() {
   constexpr rlim_t least = 256 << 10;
   rlimit stack{};
   if (::getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur < least)
-    throw std::runtime_error("the stack is limited to " + std::to_string(stack.rlim_cur >> 10) +
-                             " KiB; it needs 256 KiB, as 'ulimit -s 256' gives it");
+    throw Unfinished("the stack is limited to " + std::to_string(stack.rlim_cur >> 10) +
+                     " KiB; it needs 256 KiB, as 'ulimit -s 256' gives it");
 }
 
 // "jarol help" and "jarol help run" ask for what "jarol --help" and "jarol run --help" do.

@@ -6,6 +6,7 @@
 
 #include "distributers/messages/message_set.h"
 #include "graph/language/problems.h"
+#include "graph/text/errors.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/run/known_with.h"
 #include "tools/commands/run/packet_lines.h"
@@ -123,7 +124,7 @@ int list_messages(const MessagesOptions& options) {
   std::vector<const MessageDescriptor*> listed;
   if (options.set.empty()) {
     if (options.decode || options.encode)
-      throw std::invalid_argument("--decode and --encode need a set; jarol messages lists them");
+      throw InputError("--decode and --encode need a set; jarol messages lists them");
     for (const MessageSet* set : sets) listed.insert(listed.end(), set->messages.begin(), set->messages.end());
     options.json ? print_json(listed) : print_sets(sets);
     return exit_good;
@@ -133,8 +134,8 @@ int list_messages(const MessagesOptions& options) {
   const MessageSet* const set = found == sets.end() ? nullptr : *found;
   if (set == nullptr) {
     for (const MessageSet* known : sets) names.emplace_back(known->name);
-    throw std::invalid_argument("there is no message set '" + options.set + "'" + did_you_mean(options.set, names) +
-                                "; there are: " + list_of(names));
+    throw InputError("there is no message set '" + options.set + "'" + did_you_mean(options.set, names) +
+                     "; there are: " + list_of(names));
   }
   if (options.decode) return decode_lines(*set, std::cin, std::cout, std::cerr);
   if (options.encode) return encode_lines(*set, std::cin, std::cout, std::cerr);
@@ -147,8 +148,8 @@ int list_messages(const MessagesOptions& options) {
   if (descriptor == nullptr) {
     for (const MessageDescriptor* m : set->messages) names.emplace_back(m->name);
     const std::string close = did_you_mean(options.name, names);
-    throw std::invalid_argument("set " + options.set + " has no message '" + options.name + "'" +
-                                (close.empty() ? "; jarol messages " + options.set + " lists them" : close));
+    throw InputError("set " + options.set + " has no message '" + options.name + "'" +
+                     (close.empty() ? "; jarol messages " + options.set + " lists them" : close));
   }
   options.json ? print_json({descriptor}) : print_message(*descriptor);
   return exit_good;

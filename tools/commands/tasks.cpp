@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "graph/text/errors.h"
 #include "graph/values/bind.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/other_parts.h"
@@ -186,8 +187,8 @@ std::vector<std::string> names_in(const distributers::Registries& known) {
 
 [[noreturn]] void refuse(const std::string& name, const distributers::Registries& known) {
   const std::vector<std::string> names = names_in(known);
-  throw std::invalid_argument("there is no task, distributer, vehicle, link, policy or grammar '" + name + "'" +
-                              did_you_mean(name, names) + "; there are: " + list_of(names));
+  throw InputError("there is no task, distributer, vehicle, link, policy or grammar '" + name + "'" +
+                   did_you_mean(name, names) + "; there are: " + list_of(names));
 }
 
 int list_tasks(const TasksOptions& options) {

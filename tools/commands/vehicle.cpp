@@ -9,10 +9,12 @@
 #include "distributers/serve/serve_vehicle.h"
 #include "graph/language/quantities.h"
 #include "graph/registry.h"
+#include "graph/text/errors.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/run/apart.h"
 #include "tools/commands/run/interrupt.h"
 #include "tools/commands/run/known_with.h"
+#include "tools/commands/vehicle/link_options.h"
 #include "tools/commands/vehicle/motion_file.h"
 #include "tools/commands/vehicle/open_loop.h"
 #include "tools/commands/vehicle/serve_in_lockstep.h"
@@ -48,15 +50,14 @@ Duration period_of(const VehicleCommandOptions& options, Duration grid, Duration
   const auto period = Duration(std::llround(std::min(nanoseconds, 1e18)));
   if (!(options.rate > 0) || std::abs(nanoseconds - static_cast<double>(period.count())) > 1e-6 * nanoseconds ||
       period < grid || period % grid != Duration{})
-    throw std::invalid_argument("--rate: " + number_text(options.rate) +
-                                " rows per second do not fall on the vehicle's "
-                                "steps of " +
-                                duration_text(grid) + "; it can be " +
-                                number_text(1e9 / static_cast<double>(grid.count())) + " divided by a whole number");
+    throw InputError("--rate: " + number_text(options.rate) +
+                     " rows per second do not fall on the vehicle's "
+                     "steps of " +
+                     duration_text(grid) + "; it can be " + number_text(1e9 / static_cast<double>(grid.count())) +
+                     " divided by a whole number");
   if (period > end && end > Duration{})
-    throw std::invalid_argument("--rate: " + number_text(options.rate) + " rows per second are one in " +
-                                duration_text(period) + ", and it is driven for " + duration_text(end) +
-                                "; choose more, or leave it out for 100");
+    throw InputError("--rate: " + number_text(options.rate) + " rows per second are one in " + duration_text(period) +
+                     ", and it is driven for " + duration_text(end) + "; choose more, or leave it out for 100");
   return period;
 }
 
@@ -64,7 +65,7 @@ Duration end_of(const VehicleCommandOptions& options, const std::vector<Commands
   Duration end = commands.empty() ? Duration{} : commands.back().time;
   if (options.duration.empty()) return end;
   end = duration_of("--for", options.duration);
-  if (end < Duration{}) throw std::invalid_argument("--for: '" + options.duration + "' is below zero");
+  if (end < Duration{}) throw InputError("--for: '" + options.duration + "' is below zero");
   return end;
 }
 
@@ -112,9 +113,9 @@ int serve_in_lockstep(const VehicleCommandOptions& options, const vehicles::Vehi
     else if (key == "key")
       sealed = distributers::read_key(text);
     else if (key != "type")
-      throw std::invalid_argument("--link lockstep has no --" + key + "; it needs --listen");
+      throw InputError("--link lockstep has no --" + key + "; it needs --listen");
   }
-  if (listen.empty()) throw std::invalid_argument("--link lockstep needs --listen, as in --listen 7010");
+  if (listen.empty()) throw InputError("--link lockstep needs --listen, as in --listen 7010");
   make_vehicle(options.made, vehicle_class, parameters, own_seed(options.made, vehicle_class),
                problems);  // what is wrong with it is reported at once
   return serve_vehicle_in_lockstep(
@@ -174,20 +175,19 @@ void require_effect(const Command& command, const VehicleCommandOptions& options
   const bool linked = !options.link.empty(), scripted = !options.script.empty();
   const bool in_lockstep = linked && options.link.front().second == "lockstep";
   if (linked && options.link.front().first != "type")
-    throw std::invalid_argument("--" + options.link.front().first + " needs --link");
+    throw InputError("--" + options.link.front().first + " needs --link");
   if (!options.describe && !linked && !scripted && options.csv.empty())
-    throw std::invalid_argument(
+    throw InputError(
         "say --describe; or --script and --csv: what to do, and where the motion goes; or --link: who steers it");
-  if (linked && scripted) throw std::invalid_argument("--script and --link: either a script steers it or a peer");
-  if (scripted && options.csv.empty()) throw std::invalid_argument("--script needs --csv, where the motion goes");
+  if (linked && scripted) throw InputError("--script and --link: either a script steers it or a peer");
+  if (scripted && options.csv.empty()) throw InputError("--script needs --csv, where the motion goes");
   if (in_lockstep)
     command.refuse({"--csv", "--rate"},
                    "has no place in lockstep: what a run does with it is reported there, as by jarol run --record");
   if (!scripted && !linked)
     command.refuse({"--csv", "--rate"}, "belongs to --script or --link, which move it; add one, or leave it out");
   if (options.csv.empty()) command.refuse({"--rate"}, "belongs to --csv, where the rows go");
-  if (options.bare && (!linked || in_lockstep))
-    throw std::invalid_argument("--bare needs --link, and one in real time");
+  if (options.bare && (!linked || in_lockstep)) throw InputError("--bare needs --link, and one in real time");
   if (!linked || in_lockstep) command.refuse({"--rt-priority"}, "belongs to --link in real time");
   if (in_lockstep) {
     command.refuse({"--for"},
@@ -205,14 +205,14 @@ int vehicle(const VehicleCommandOptions& options) {
   const vehicles::VehicleClass* const found = known.find(options.name);
   if (found == nullptr) {
     const std::vector<std::string> names = known.names();
-    throw std::invalid_argument("there is no vehicle '" + options.name + "'" + did_you_mean(options.name, names) +
-                                "; this build has: " + list_of(names));
+    throw InputError("there is no vehicle '" + options.name + "'" + did_you_mean(options.name, names) +
+                     "; this build has: " + list_of(names));
   }
   for (const auto& [key, text] : options.link)
     if (key == "announce" && found->make_announcement == nullptr)
-      throw std::invalid_argument("--announce: nobody looks for a " + found->name + ", which has no message for that");
+      throw InputError("--announce: nobody looks for a " + found->name + ", which has no message for that");
   if (options.bare && found->true_state == nullptr)
-    throw std::invalid_argument("--bare: there is no message of a " + found->name + "'s true state");
+    throw InputError("--bare: there is no message of a " + found->name + "'s true state");
   Problems problems;
   const Value parameters = read_parameters(options.made, *found, known, problems);
   require_apart({{"--script", options.script}, {"--parameters", options.made.parameters}}, {{"--csv", options.csv}});
@@ -251,24 +251,10 @@ void add_vehicle(CommandLine& line, int& exit_code) {
   command->add_option("--for", options->duration, "How long, as in 10s; default: to the last row of the script");
   command->add_option("--seed", options->made.seed, "Seed of the sensors' noise; default 0");
   command->add_flag("--bare", options->bare, "Link: send the true state only, as SimulatedState of a submarine");
-  struct LinkKey {
-    const char *key, *text;
-  };
   std::vector<std::string> links;
   for (const distributers::LinkType& type : built_in().links.entries())
     if (type.make_link) links.push_back(type.name);
   links.insert(links.end(), {"tcp", "lockstep"});
-  const LinkKey link_keys[] = {
-      {"listen", "Link: port to listen at, with an address where not the loopback, as in 6002"},
-      {"peer", "Link: address and port of the other end, as in 127.0.0.1:7002"},
-      {"device", "Link: the serial line, as in /dev/ttyS0"},
-      {"baud", "Link: rate of the serial line; default 115200"},
-      {"key", "Link: file of the key that both ends have"},
-      {"silence", "Link: of the peer, after which another may take its place; default 5 s"},
-      {"announce", "Link: where it announces itself, as in 127.0.0.1:30100-30104; default: nowhere"},
-      {"id",
-       "Link: the sender's id in what is sent, in hex or decimal, as in 0x00D1; packets to another id are dropped"},
-  };
   command
       ->add_option(
           "--link",
@@ -278,10 +264,10 @@ void add_vehicle(CommandLine& line, int& exit_code) {
           "Run steered over a link: " + list_of(links) +
               "; tcp is a server, or with --peer a client; in lockstep on the runner's clock, else in real time")
       ->one_of(links);
-  for (const LinkKey& key : link_keys)
+  for (const LinkOption& option : link_options(built_in().links))
     command->add_option(
-        std::string("--") + key.key,
-        [options, name = key.key](const std::string& text) { options->link.emplace_back(name, text); }, key.text);
+        "--" + option.key,
+        [options, key = option.key](const std::string& text) { options->link.emplace_back(key, text); }, option.text);
   command
       ->add_option("--rt-priority", options->priority,
                    "Link in real time: SCHED_FIFO priority; default: the ordinary scheduler")

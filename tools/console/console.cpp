@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <utility>
 
+#include "graph/text/errors.h"
 #include "tools/console/page_message.h"
 #include "tools/console/seconds.h"
 #include "tools/console/shortened.h"
@@ -119,11 +119,11 @@ std::string Console::answer(const Page& page, const std::string& message) {
     return "";
   }
   if (watched_.pace == nullptr)
-    throw std::invalid_argument("this run goes on by itself; only one on the virtual clock can be paced and paused");
+    throw InputError("this run goes on by itself; only one on the virtual clock can be paced and paused");
   // the time that a vehicle waits for its operator is that of the run: who changes it could end another one's flight
   if (const std::string desk = desk_.commanded_by_others(page.number); !desk.empty())
-    throw std::invalid_argument("another page commands '" + desk +
-                                "'; only a page that commands alone changes the pace, pauses and steps");
+    throw InputError("another page commands '" + desk +
+                     "'; only a page that commands alone changes the pace, pauses and steps");
   obey(*watched_.pace, message);
   return "";
 }
@@ -136,17 +136,17 @@ void obey(Pace& pace, const std::string& message) {
   if (what == "step") {
     const auto instants = json.value("instants", nlohmann::json(1));
     if (!instants.is_number_unsigned() || instants < 1 || instants > Pace::max_steps)
-      throw std::invalid_argument("'instants' of step is no whole number from 1 to 10000");
+      throw InputError("'instants' of step is no whole number from 1 to 10000");
     return pace.step(instants);
   }
   if (what == "speed") {
     const auto speed = json.value("speed", nlohmann::json());
     if (speed == "max") return pace.set_speed(std::nullopt);
     if (!speed.is_number() || !(speed >= Pace::min && speed <= Pace::max))
-      throw std::invalid_argument("'speed' is no number from 0.001 to 1000, nor \"max\"");
+      throw InputError("'speed' is no number from 0.001 to 1000, nor \"max\"");
     return pace.set_speed(speed.get<double>());
   }
-  throw std::invalid_argument("there is no '" + shortened(what) + "' to do; there are: pause, go_on, step, speed");
+  throw InputError("there is no '" + shortened(what) + "' to do; there are: pause, go_on, step, speed");
 }
 
 }  // namespace jarol::tools::console

@@ -52,7 +52,7 @@ class Console : public View {
   std::unique_ptr<Server> server_;  // last: its thread calls what stands above
 };
 
-/// What a page may ask for, as in {"do": "pause"}. Throws std::invalid_argument.
+/// What a page may ask for, as in {"do": "pause"}. Throws InputError.
 void obey(Pace& pace, const std::string& message);
 
 }  // namespace jarol::tools::console

@@ -4,12 +4,12 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <utility>
 
 #include "distributers/messages/json.h"
 #include "graph/language/problems.h"
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 #include "tools/console/shortened.h"
 
 namespace jarol::tools::console {
@@ -19,8 +19,7 @@ using Received = nlohmann::json;
 
 std::string text_of(const Received& message, const char* key) {
   const auto found = message.find(key);
-  if (found == message.end() || !found->is_string())
-    throw std::invalid_argument(fmt::format("expected a text as \"{}\"", key));
+  if (found == message.end() || !found->is_string()) throw InputError(fmt::format("expected a text as \"{}\"", key));
   return *found;
 }
 
@@ -41,10 +40,10 @@ bool is_for_emergencies(const Received& message) {
 void require_centred(const Received& message) {
   const auto sticks = message.find("sticks");
   if (sticks == message.end() || !sticks->is_object())
-    throw std::invalid_argument("expected the sticks' places as \"sticks\", as in {\"roll\": 0}");
+    throw InputError("expected the sticks' places as \"sticks\", as in {\"roll\": 0}");
   for (const auto& [name, place] : sticks->items())
     if (!place.is_number() || !(std::abs(place.get<double>()) <= Desk::centred))
-      throw std::invalid_argument(
+      throw InputError(
           fmt::format("stick '{}' is at {}; centre it to take over", shortened(name), shortened(place.dump())));
 }
 
@@ -78,13 +77,13 @@ void Desk::obey(std::uint64_t page, const Received& message, Clock::time_point n
   } else if (!seat.page && what == "release") {
     return;  // it lost the seat before it let go of it
   } else if (seat.page != page) {
-    throw std::invalid_argument(fmt::format("this page does not command '{}'; take it first", seat.of.name));
+    throw InputError(fmt::format("this page does not command '{}'; take it first", seat.of.name));
   } else if (what == "send") {
     send(seat, message);
   } else if (what == "release") {
     free(seat, "it was released");
   } else if (what != "alive") {
-    throw std::invalid_argument(
+    throw InputError(
         fmt::format("there is no '{}' to do at a desk; there are: alive, release, send, take", shortened(what)));
   }
   seat.heard = now;
@@ -100,10 +99,10 @@ std::string Desk::commanded_by_others(std::uint64_t page) const {
 void Desk::leave_out(Seat& seat, const Received& message, Duration behind) {
   const std::string what = text_of(message, "do");
   const std::string age = fmt::format("what this page shows is {} old", age_text(behind));
-  if (what == "take") throw std::invalid_argument(age + ": it can't take over");
+  if (what == "take") throw InputError(age + ": it can't take over");
   seat.behind = behind;
   if (what != "alive")
-    throw std::invalid_argument(fmt::format("{}: '{}' is not sent", age, shortened(text_of(message, "message"))));
+    throw InputError(fmt::format("{}: '{}' is not sent", age, shortened(text_of(message, "message"))));
 }
 
 void Desk::leave(std::uint64_t page) {
@@ -151,16 +150,15 @@ Desk::Seat& Desk::find(const Received& message) {
     if (seat.of.name == name) return seat;
     names.push_back(seat.of.name);
   }
-  throw std::invalid_argument(fmt::format("there is no desk of '{}'; there are: {}", shortened(name), list_of(names)));
+  throw InputError(fmt::format("there is no desk of '{}'; there are: {}", shortened(name), list_of(names)));
 }
 
 void Desk::take(Seat& seat, std::uint64_t page, const Received& message) {
   if (seat.page && seat.page != page)
-    throw std::invalid_argument(
-        fmt::format("another page commands '{}'; it has to release it, or to fall silent", seat.of.name));
+    throw InputError(fmt::format("another page commands '{}'; it has to release it, or to fall silent", seat.of.name));
   require_centred(message);
   seat.as = text_of(message, "as");
-  if (seat.as.size() > 64) throw std::invalid_argument("what a page calls itself has at most 64 characters");
+  if (seat.as.size() > 64) throw InputError("what a page calls itself has at most 64 characters");
   seat.page = page;
   seat.sequence = 0;
   seat.why.clear();
@@ -171,19 +169,18 @@ void Desk::take(Seat& seat, std::uint64_t page, const Received& message) {
 void Desk::send(Seat& seat, const Received& message) {
   const auto sequence = message.find("sequence");
   if (sequence == message.end() || !sequence->is_number_unsigned())
-    throw std::invalid_argument("expected a number that grows as \"sequence\"");
+    throw InputError("expected a number that grows as \"sequence\"");
   if (sequence->get<std::uint64_t>() <= seat.sequence) return;
   const messages::MessageSet& set = seat.of.port->message_set();
   const std::string abbrev = text_of(message, "message");
   const messages::MessageDescriptor* const descriptor = set.find(abbrev);
-  if (descriptor == nullptr)
-    throw std::invalid_argument(fmt::format("{} has no message '{}'", set.name, shortened(abbrev)));
+  if (descriptor == nullptr) throw InputError(fmt::format("{} has no message '{}'", set.name, shortened(abbrev)));
   messages::Message made(*descriptor);
   std::string why;
   const auto fields = message.find("fields");
   if (fields != message.end() && !messages::from_json(fields->dump(), made, why))
-    throw std::invalid_argument(fmt::format("{}: {}", abbrev, why));
-  if (!seat.of.port->send(made, why)) throw std::invalid_argument(fmt::format("{} is lost: {}", abbrev, why));
+    throw InputError(fmt::format("{}: {}", abbrev, why));
+  if (!seat.of.port->send(made, why)) throw InputError(fmt::format("{} is lost: {}", abbrev, why));
   seat.sequence = *sequence;
 }
 

@@ -33,7 +33,7 @@ class Desk {
   nlohmann::ordered_json describe() const;
 
   /// What page number so-and-so asks for: {"do": "take" | "alive" | "send" | "release", "desk": NAME, ...}. Throws
-  /// std::invalid_argument, of which the page is shown the text. `behind`: so old is what the page shows.
+  /// InputError, of which the page is shown the text. `behind`: so old is what the page shows.
   void obey(std::uint64_t page, const nlohmann::json& message, Clock::time_point now, Duration behind = {});
   /// The first desk that another page commands; empty: there is none.
   std::string commanded_by_others(std::uint64_t page) const;

@@ -2,9 +2,9 @@
 
 #include <charconv>
 #include <iostream>
-#include <stdexcept>
 
 #include "distributers/session/pace.h"
+#include "graph/text/errors.h"
 #include "tools/report/command_line.h"
 
 namespace jarol::tools {
@@ -39,8 +39,7 @@ std::optional<double> parse_pace(const std::string& text) {
   const char* const end = text.data() + text.size();
   const auto read = std::from_chars(text.data(), end, speed);
   if (read.ec != std::errc() || read.ptr != end || !(speed >= Pace::min && speed <= Pace::max))
-    throw std::invalid_argument("--pace: '" + text +
-                                "' is no number from 0.001 to 1000, nor max; write it as in 1, 0.1 or 10");
+    throw InputError("--pace: '" + text + "' is no number from 0.001 to 1000, nor max; write it as in 1, 0.1 or 10");
   return speed;
 }
 
@@ -50,7 +49,7 @@ console::ServerOptions server_of(const ConsoleArguments& arguments) {
   if (port == "true") return options;
   const auto read = std::from_chars(port.data(), port.data() + port.size(), options.port);
   if (read.ec != std::errc() || read.ptr != port.data() + port.size() || options.port < 1 || options.port > 65535)
-    throw std::invalid_argument("the console's port '" + port + "' is no number from 1 to 65535");
+    throw InputError("the console's port '" + port + "' is no number from 1 to 65535");
   return options;
 }
 

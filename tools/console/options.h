@@ -22,10 +22,10 @@ struct ConsoleArguments {
 void add_console_options(Command& command, ConsoleArguments& arguments);
 /// Where nothing but a page is wanted.
 void add_server_options(Command& command, ConsoleArguments& arguments);
-/// Refuses those that would have no effect. Throws std::invalid_argument.
+/// Refuses those that would have no effect. Throws InputError.
 void require_effect(const Command& command, const ConsoleArguments& arguments, bool virtual_clock);
 
-/// What --pace says, as in 1, 0.1, 10 or max. Throws std::invalid_argument.
+/// What --pace says, as in 1, 0.1, 10 or max. Throws InputError.
 std::optional<double> parse_pace(const std::string& text);
 
 console::ServerOptions server_of(const ConsoleArguments& arguments);

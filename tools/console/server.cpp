@@ -17,9 +17,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <thread>
 
+#include "graph/text/errors.h"
 #include "tools/console/history.h"
 #include "tools/console/page.h"
 #include "tools/console/unseen.h"
@@ -43,7 +43,7 @@ constexpr auto longest_end = 5s;
 constexpr auto frame = 33ms;
 
 std::string make_token() {
-  if (sodium_init() < 0) throw std::runtime_error("no random numbers for the console's token can be had");
+  if (sodium_init() < 0) throw Unfinished("no random numbers for the console's token can be had");
   unsigned char bytes[16];
   randombytes_buf(bytes, sizeof bytes);
   std::string text;
@@ -286,7 +286,7 @@ class Server::Implementation::Watcher : public std::enable_shared_from_this<Watc
         return write();
       }
       answer = server_.answer_({page_, unseen_.behind(std::chrono::steady_clock::now(), next_time())}, message);
-    } catch (const std::invalid_argument& wrong) {
+    } catch (const InputError& wrong) {
       answer = nlohmann::json{{"error", wrong.what()}}.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
     }
     if (!answer.empty()) send(std::move(answer));
@@ -414,12 +414,12 @@ Server::Implementation::Implementation(const ServerOptions& options, std::string
   Error error;
   const asio::ip::address address = asio::ip::make_address(options.listen, error);
   if (error)
-    throw std::invalid_argument("the console can't listen on '" + options.listen +
-                                "', which is no address; write it as in 127.0.0.1 or 0.0.0.0");
+    throw InputError("the console can't listen on '" + options.listen +
+                     "', which is no address; write it as in 127.0.0.1 or 0.0.0.0");
   const tcp::endpoint end(address, static_cast<unsigned short>(options.port));
   const auto require = [&](const Error& wrong) {
     if (wrong)
-      throw std::runtime_error(
+      throw InputError(
           fmt::format("the console can't listen on {} port {}: {}", options.listen, options.port, wrong.message()));
   };
   require(acceptor_.open(end.protocol(), error));

@@ -27,7 +27,7 @@ struct Page {
   Duration behind{};  // what it shows was so long ago
 };
 
-/// What a page asks for; the answer goes to that page alone, empty: there is none. Throws std::invalid_argument, of
+/// What a page asks for; the answer goes to that page alone, empty: there is none. Throws InputError, of
 /// which the page is shown the text.
 using Answer = std::function<std::string(const Page& page, const std::string& message)>;
 
@@ -39,7 +39,7 @@ using NextMessages = std::function<std::vector<std::string>()>;
 
 class Server {
  public:
-  /// `hello` is the first message that each page gets. Throws std::runtime_error where the port can't be had.
+  /// `hello` is the first message that each page gets. Throws InputError where the port can't be had.
   Server(const ServerOptions& options, std::string hello, NextMessages next, Answer answer, Left left = {});
   /// Pages have got what there was, as far as they took it within a second, or within five where they are slow and go
   /// on.

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
+#include "graph/text/errors.h"
 #include "tools/console/page_message.h"
 
 namespace jarol::tools::console {
@@ -16,7 +16,7 @@ std::optional<std::uint64_t> read_seen(const std::string& message) {
   if (!json.is_object() || json.value("do", nlohmann::json()) != "seen") return std::nullopt;
   const auto messages = json.value("messages", nlohmann::json());
   if (!messages.is_number_unsigned())
-    throw std::invalid_argument("expected a whole number as in {\"do\": \"seen\", \"messages\": 12}");
+    throw InputError("expected a whole number as in {\"do\": \"seen\", \"messages\": 12}");
   return messages.get<std::uint64_t>();
 }
 
@@ -31,7 +31,7 @@ void Unseen::send(Time of, Time now) {
 void Unseen::see(std::uint64_t messages) {
   const std::uint64_t sent = gone_ + all_.size();
   if (messages > sent || messages < said_.value_or(0))
-    throw std::invalid_argument(
+    throw InputError(
         fmt::format("'messages' of seen is {}, of {} that were sent and {} seen", messages, sent, said_.value_or(0)));
   said_ = messages;
   for (; gone_ < messages; ++gone_) all_.pop_front();

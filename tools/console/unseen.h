@@ -13,7 +13,7 @@
 
 namespace jarol::tools::console {
 
-/// Of {"do": "seen", "messages": 12} the number; nothing: it is another message. Throws std::invalid_argument where the
+/// Of {"do": "seen", "messages": 12} the number; nothing: it is another message. Throws InputError where the
 /// number is none.
 std::optional<std::uint64_t> read_seen(const std::string& message);
 
@@ -24,7 +24,7 @@ class Unseen {
   /// A message that reports on that time was sent.
   void send(Time of, Time now);
 
-  /// The page has seen so many since it came. Throws std::invalid_argument where that is less than before, or more than
+  /// The page has seen so many since it came. Throws InputError where that is less than before, or more than
   /// were sent.
   void see(std::uint64_t messages);
 

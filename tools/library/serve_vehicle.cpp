@@ -1,8 +1,7 @@
 #include "tools/library/serve_vehicle.h"
 
-#include <stdexcept>
-
 #include "graph/language/yaml.h"
+#include "graph/text/errors.h"
 
 namespace jarol {
 namespace {
@@ -33,10 +32,10 @@ ServeOutcome serve_vehicle(const std::string& name, std::string link_text, const
   const auto& vehicles = built_in(program).vehicles;
   const vehicles::VehicleClass* const found = vehicles.find(name);
   if (found == nullptr)
-    throw std::invalid_argument("there is no vehicle '" + name + "'" + did_you_mean(name, vehicles.names()) +
-                                "; this build has: " + list_of(vehicles.names()));
+    throw InputError("there is no vehicle '" + name + "'" + did_you_mean(name, vehicles.names()) +
+                     "; this build has: " + list_of(vehicles.names()));
   if (options.telemetry == Telemetry::true_state && found->true_state == nullptr)
-    throw std::invalid_argument("there is no message of a " + name + "'s true state");
+    throw InputError("there is no message of a " + name + "'s true state");
   Problems problems;
   const Value parameters = read_parameters(made, *found, vehicles, problems);
   const auto link = make_link(std::move(link_text), *found->message_set, problems);

@@ -14,7 +14,7 @@
 namespace jarol {
 
 /// A vehicle that is built in, at a link as a graph writes it. Throws SpecError with all that is wrong with the
-/// parameters and the link; std::invalid_argument where there is no such vehicle, or none can be made of these
+/// parameters and the link; InputError where there is no such vehicle, or none can be made of these
 /// parameters; WrongBuild; and as the function that takes vehicle and link.
 ServeOutcome serve_vehicle(const std::string& name, std::string link, const VehicleOptions& made = {},
                            const ServeOptions& options = {}, const BuildOptions& program = options_of_this_file());

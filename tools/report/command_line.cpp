@@ -5,8 +5,8 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
+#include "graph/text/errors.h"
 #include "tools/report/command_words.h"
 #include "tools/report/failure.h"
 
@@ -142,7 +142,7 @@ bool Command::given(const std::string& name) const { return app_.count(name) > 0
 
 void Command::refuse(const std::vector<std::string>& names, const std::string& why) const {
   for (const std::string& name : names)
-    if (given(name)) throw std::invalid_argument(name + " " + why);
+    if (given(name)) throw InputError(name + " " + why);
 }
 
 void Command::footer(const std::string& text) { app_.footer(text); }

@@ -82,7 +82,7 @@ class Command {
                               const std::string& text);
   /// Was the option of that name among the words?
   bool given(const std::string& name) const;
-  /// Throws std::invalid_argument for the first of these options that was given: its name and this text, as in
+  /// Throws InputError for the first of these options that was given: its name and this text, as in
   /// "--csv belongs to --script". For options that would have no effect.
   void refuse(const std::vector<std::string>& names, const std::string& why) const;
   void footer(const std::string& text);

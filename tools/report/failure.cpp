@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "distributers/links/frames.h"
 #include "distributers/session/errors.h"
+#include "graph/text/errors.h"
 #include "graph/text/escape.h"
 #include "tools/report/exit_code.h"
 #include "tools/report/json_line.h"
@@ -44,7 +44,7 @@ Failure of_one(int exit_code, const std::string& text) {
 }
 
 Failure of_ours(const std::string& text) {
-  return of_one(exit_unfinished, "jarol itself is wrong: " + text + "; please report what you did");
+  return of_one(exit_unfinished, "internal error: " + text + "; please report what you did");
 }
 
 // Why a file can't be written that is not its name: another one would not help.
@@ -76,8 +76,6 @@ Failure failure_of(const std::exception_ptr& error, const std::string& file) {
     failure = of_one(exit_unfinished, refused.what());
   } catch (const EndedEarly& ended) {
     failure = of_one(exit_of_signal(ended.signal), ended.what());
-  } catch (const distributers::FrameError& lost) {
-    failure = of_one(exit_unfinished, lost.what());
   } catch (const std::bad_alloc&) {
     failure = of_one(exit_unfinished, "there is not enough memory for this");
   } catch (const std::system_error& refused) {
@@ -85,11 +83,7 @@ Failure failure_of(const std::exception_ptr& error, const std::string& file) {
     const bool no_room = refused.code() == std::errc::resource_unavailable_try_again;
     failure = no_room ? of_one(exit_unfinished, "there is not enough memory for this, or there are too many threads")
                       : of_one(is_of_machine(refused.code()) ? exit_unfinished : exit_input, refused.what());
-  } catch (const std::runtime_error& wrong) {
-    failure = of_one(exit_input, wrong.what());
-  } catch (const std::invalid_argument& wrong) {
-    failure = of_one(exit_input, wrong.what());
-  } catch (const std::length_error& wrong) {
+  } catch (const InputError& wrong) { failure = of_one(exit_input, wrong.what()); } catch (const SessionError& wrong) {
     failure = of_one(exit_input, wrong.what());
   } catch (const std::exception& ours) { failure = of_ours(ours.what()); } catch (...) {
     failure = of_ours("something that is not a std::exception was thrown");

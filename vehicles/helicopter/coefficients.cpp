@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
+
+#include "graph/text/errors.h"
 
 namespace jarol::vehicles {
 namespace {
 
 void need(bool good, const std::string& what) {
-  if (!good) throw std::runtime_error(what);
+  if (!good) throw InputError(what);
 }
 
 // what is dropped by chance is carried at first, even if it may be dropped from the start

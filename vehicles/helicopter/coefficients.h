@@ -6,7 +6,7 @@
 
 namespace jarol::vehicles {
 
-/// Throws std::runtime_error if no body can have these parameters.
+/// Throws InputError if no body can have these parameters.
 HelicopterBody make_body(const HelicopterParameters& parameters);
 
 /// Level at rest; standing, it has sunk in as far as its feet carry it.

@@ -28,7 +28,7 @@ class Helicopter : public Vehicle {
   using Outputs = HelicopterOutputs;
   using Truth = HelicopterTruth;
 
-  /// `seed`: of all noise. Throws std::runtime_error if no body can have these parameters.
+  /// `seed`: of all noise. Throws InputError if no body can have these parameters.
   explicit Helicopter(const HelicopterParameters& parameters, std::uint64_t seed = 0);
   ~Helicopter() override;
 

@@ -2,7 +2,8 @@
 
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
+
+#include "graph/text/errors.h"
 
 namespace jarol::vehicles::fossen {
 namespace {
@@ -17,7 +18,7 @@ Matrix6 cholesky(const Matrix6& M) {
     for (std::size_t j = 0; j <= i; ++j) {
       double rest = M[i][j];
       for (std::size_t k = 0; k < j; ++k) rest -= L[i][k] * L[j][k];
-      if (i == j && !(rest > 0.0)) throw std::runtime_error("the mass matrix is not positive definite");
+      if (i == j && !(rest > 0.0)) throw InputError("the mass matrix is not positive definite");
       L[i][j] = i == j ? std::sqrt(rest) : rest / L[j][j];
     }
   }

@@ -26,7 +26,7 @@ inline Vector6 multiply(const Matrix6& M, const Vector6& x) {
   return y;
 }
 
-/// Inverse of a symmetric positive definite matrix; throws std::runtime_error for any other.
+/// Inverse of a symmetric positive definite matrix; throws InputError for any other.
 Matrix6 inverse(const Matrix6& M);
 
 /// M_rb of a mass with its centre r_bg below the origin and principal moments of inertia about the origin, eq. (3.44).

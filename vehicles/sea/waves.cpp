@@ -2,21 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "graph/math/geometry.h"
+#include "graph/text/errors.h"
 
 namespace jarol::vehicles {
 Waves::Waves(double height, double period, double direction)
     : amplitude_(0.5 * height), north_(std::cos(direction)), east_(std::sin(direction)) {
   if (height == 0.0) return;
-  if (!(height > 0.0)) throw std::runtime_error("sea.wave_height must not be below zero");
-  if (!(period > 0.0)) throw std::runtime_error("sea.wave_period must be above zero");
+  if (!(height > 0.0)) throw InputError("sea.wave_height must not be below zero");
+  if (!(period > 0.0)) throw InputError("sea.wave_period must be above zero");
   frequency_ = 2.0 * pi / period;
   number_ = frequency_ * frequency_ / gravity;
   if (height * number_ > 2.0 * pi / 7.0)
-    throw std::runtime_error(
-        "waves of this sea.wave_height and sea.wave_period would break; they are steeper than 1 in 7");
+    throw InputError("waves of this sea.wave_height and sea.wave_period would break; they are steeper than 1 in 7");
 }
 
 Water Waves::at(const fossen::Vector3& p_n, double seconds) const {

@@ -19,7 +19,7 @@ class Waves {
  public:
   Waves() = default;
   /// Crest to trough, time from crest to crest, and where they run, clockwise from north. A height of 0 is still water.
-  /// Throws std::runtime_error for waves that would break: steeper than 1 in 7 (Miche, 1944).
+  /// Throws InputError for waves that would break: steeper than 1 in 7 (Miche, 1944).
   Waves(double height, double period, double direction);
 
   bool still() const { return amplitude_ == 0.0; }

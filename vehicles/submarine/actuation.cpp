@@ -1,9 +1,9 @@
 #include "vehicles/submarine/actuation.h"
 
 #include <cmath>
-#include <stdexcept>
 
 #include "graph/math/geometry.h"
+#include "graph/text/errors.h"
 #include "graph/values/seed.h"
 #include "vehicles/submarine/motion.h"
 
@@ -22,11 +22,11 @@ SubmarineActuation::SubmarineActuation(const SubmarineParameters& parameters, st
                     FailingActuator(parameters.failures.fin2, spread_seed(seed, "fin2.failure")),
                     FailingActuator(parameters.failures.fin3, spread_seed(seed, "fin3.failure"))},
       failing_propeller_(parameters.failures.propeller, spread_seed(seed, "propeller.failure")) {
-  if (parameters.command_timeout < Duration{}) throw std::runtime_error("submarine: command_timeout is below zero");
-  if (!(thruster_.time_constant >= 0.0)) throw std::runtime_error("submarine: thruster.time_constant is below zero");
-  if (!(servo_parameters_.limit >= 0.0)) throw std::runtime_error("submarine: servos.limit is below zero");
-  if (!(servo_parameters_.slew > 0.0)) throw std::runtime_error("submarine: servos.slew must be above zero");
-  if (!(thruster_.max_thrust >= 0.0)) throw std::runtime_error("submarine: thruster.max_thrust is below zero");
+  if (parameters.command_timeout < Duration{}) throw InputError("submarine: command_timeout is below zero");
+  if (!(thruster_.time_constant >= 0.0)) throw InputError("submarine: thruster.time_constant is below zero");
+  if (!(servo_parameters_.limit >= 0.0)) throw InputError("submarine: servos.limit is below zero");
+  if (!(servo_parameters_.slew > 0.0)) throw InputError("submarine: servos.slew must be above zero");
+  if (!(thruster_.max_thrust >= 0.0)) throw InputError("submarine: thruster.max_thrust is below zero");
 }
 
 void SubmarineActuation::command_thruster(double actuation) {

@@ -12,7 +12,7 @@ namespace jarol::vehicles {
 
 class SubmarineActuation {
  public:
-  /// Throws std::runtime_error if no actuators can have these parameters.
+  /// Throws InputError if no actuators can have these parameters.
   explicit SubmarineActuation(const SubmarineParameters& parameters, std::uint64_t seed = 0);
 
   // what is not a finite number is not taken

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <cstddef>
-#include <stdexcept>
 #include <string>
+
+#include "graph/text/errors.h"
 
 namespace jarol::vehicles {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 enum Axis : std::size_t { x, y, z, k, m, n };
 
 void require_positive(double value, const char* what) {
-  if (!(value > 0.0)) throw std::runtime_error(std::string("submarine: ") + what + " must be above zero");
+  if (!(value > 0.0)) throw InputError(std::string("submarine: ") + what + " must be above zero");
 }
 
 fossen::Matrix6 make_added_mass(const AddedMassParameters& a) {
@@ -73,7 +74,7 @@ SubmarineBody make_body(const SubmarineParameters& parameters) {
   require_positive(hull.length, "hull.length");
   require_positive(hull.diameter, "hull.diameter");
   if (hull.diameter > hull.length)
-    throw std::runtime_error(
+    throw InputError(
         fmt::format("submarine: hull.diameter must not be above hull.length, and is {} m where that is {} m",
                     hull.diameter, hull.length));
   require_positive(hull.I_x, "hull.I_x");

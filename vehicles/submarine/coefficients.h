@@ -6,7 +6,7 @@
 
 namespace jarol::vehicles {
 
-/// Throws std::runtime_error if no body can have these parameters.
+/// Throws InputError if no body can have these parameters.
 SubmarineBody make_body(const SubmarineParameters& parameters);
 
 }  // namespace jarol::vehicles

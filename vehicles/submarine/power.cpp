@@ -4,16 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+
+#include "graph/text/errors.h"
 
 namespace jarol::vehicles {
 
 Power::Power(const PowerParameters& p) : parameters_(p), used_(3600.0 * (1.0 - p.charge) * p.capacity) {
-  if (!(p.capacity > 0.0)) throw std::runtime_error("submarine: power.capacity must be above zero");
-  if (!(p.resistance >= 0.0)) throw std::runtime_error("submarine: power.resistance is below zero");
+  if (!(p.capacity > 0.0)) throw InputError("submarine: power.capacity must be above zero");
+  if (!(p.resistance >= 0.0)) throw InputError("submarine: power.resistance is below zero");
   if (!(p.empty <= p.full))
-    throw std::runtime_error(fmt::format(
-        "submarine: power.empty must not be above power.full, and is {} V where that is {} V", p.empty, p.full));
+    throw InputError(fmt::format("submarine: power.empty must not be above power.full, and is {} V where that is {} V",
+                                 p.empty, p.full));
 }
 
 void Power::draw(double part, double seconds) {

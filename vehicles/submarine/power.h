@@ -33,7 +33,7 @@ struct PowerParameters {
 
 class Power {
  public:
-  /// Throws std::runtime_error if no battery can have these parameters.
+  /// Throws InputError if no battery can have these parameters.
   explicit Power(const PowerParameters& parameters);
 
   /// A propeller at this part of its full speed, for some seconds.

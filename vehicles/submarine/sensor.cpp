@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
+#include "graph/text/errors.h"
 #include "graph/values/seed.h"
 
 namespace jarol::vehicles {
@@ -14,7 +14,7 @@ constexpr Duration longest_delay = std::chrono::minutes(1);  // what was measure
 
 std::int64_t steps_of(Duration duration, const std::string& what) {
   if (duration < Duration{} || duration % grid != Duration{})
-    throw std::runtime_error("submarine: " + what + " must be a multiple of the vehicle's steps of 10ms");
+    throw InputError("submarine: " + what + " must be a multiple of the vehicle's steps of 10ms");
   return duration / grid;
 }
 
@@ -28,10 +28,10 @@ Sensor::Sensor(const Errors& errors, Duration period, Duration delay, const std:
       width_(width),
       noise_(spread_seed(seed, name)),
       failing_(errors.failure, spread_seed(seed, name + ".failure")) {
-  if (period_ == 0) throw std::runtime_error("submarine: sensors." + name + ".period must be above zero");
-  if (delay > longest_delay) throw std::runtime_error("submarine: sensors." + name + ".delay is longer than a minute");
-  if (!(errors.noise >= 0.0)) throw std::runtime_error("submarine: sensors." + name + ".noise is below zero");
-  if (!(errors.resolution >= 0.0)) throw std::runtime_error("submarine: sensors." + name + ".resolution is below zero");
+  if (period_ == 0) throw InputError("submarine: sensors." + name + ".period must be above zero");
+  if (delay > longest_delay) throw InputError("submarine: sensors." + name + ".delay is longer than a minute");
+  if (!(errors.noise >= 0.0)) throw InputError("submarine: sensors." + name + ".noise is below zero");
+  if (!(errors.resolution >= 0.0)) throw InputError("submarine: sensors." + name + ".resolution is below zero");
   pending_.resize(static_cast<std::size_t>(delay_ / period_) + 1);
   values_.fill(std::numeric_limits<double>::quiet_NaN());
 }

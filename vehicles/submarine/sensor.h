@@ -16,7 +16,7 @@ class Sensor {
  public:
   using Values = std::array<double, 3>;  // what is not used is 0
 
-  /// Throws std::runtime_error unless period and delay are multiples of the vehicle's step of 10 ms.
+  /// Throws InputError unless period and delay are multiples of the vehicle's step of 10 ms.
   template <class Kind>
   Sensor(const SensorOf<Kind>& parameters, const std::string& name, std::uint64_t seed, std::size_t width = 1)
       : Sensor({parameters.noise, parameters.bias, parameters.resolution, parameters.failure}, parameters.period,

@@ -27,7 +27,7 @@ struct SubmarineScene {
 
 class SubmarineSensors {
  public:
-  /// The antenna reaches out of the water where the hull floats. Throws std::runtime_error for what no sensor can be.
+  /// The antenna reaches out of the water where the hull floats. Throws InputError for what no sensor can be.
   SubmarineSensors(const SubmarineSensorParameters& parameters, const SeaParameters& sea, double floating_depth,
                    std::uint64_t seed);
 

@@ -4,10 +4,10 @@
 
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "distributers/messages/imc.h"
 #include "graph/math/rotations.h"
+#include "graph/text/errors.h"
 #include "vehicles/submarine/coefficients.h"
 #include "vehicles/submarine/plant.h"
 #include "vehicles/submarine/rigid_plant.h"
@@ -24,9 +24,8 @@ VehicleState start_of(const SubmarineParameters& parameters) {
   start.y = parameters.start.east;
   start.z = floating_depth(parameters) + parameters.start.depth;
   if (!parameters.vsim_compatible && start.z + 0.5 * parameters.hull.diameter > parameters.sea.floor)
-    throw std::runtime_error(
-        fmt::format("submarine: start.depth must lie above sea.floor, and is {} m where that is {} m",
-                    parameters.start.depth, parameters.sea.floor));
+    throw InputError(fmt::format("submarine: start.depth must lie above sea.floor, and is {} m where that is {} m",
+                                 parameters.start.depth, parameters.sea.floor));
   start.psi = parameters.start.heading;
   start.u = parameters.start.surge;
   return start;

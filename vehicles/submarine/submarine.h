@@ -25,7 +25,7 @@ class Submarine : public Vehicle {
   using Outputs = SubmarineOutputs;
   using Truth = SubmarineTruth;
 
-  /// Throws std::runtime_error if no body can have these parameters.
+  /// Throws InputError if no body can have these parameters.
   explicit Submarine(const SubmarineParameters& parameters, std::uint64_t seed = 0);
   ~Submarine() override;
 

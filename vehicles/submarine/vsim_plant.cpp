@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "distributers/interfaces/no_state.h"
 #include "graph/math/geometry.h"
 #include "graph/math/rotations.h"
+#include "graph/text/errors.h"
 #include "vehicles/submarine/coefficients.h"
 
 namespace jarol::vehicles {
@@ -75,11 +75,11 @@ Vector6 calc_eta_dot(const PlantState& s) {
 VsimPlant::VsimPlant(const SubmarineParameters& parameters, const PlantState& start)
     : body_(make_body(parameters)), vsim_(parameters.vsim), state_(start) {
   for (const double each : {vsim_.M_u, vsim_.M_v, vsim_.M_w, vsim_.I_p, vsim_.I_q, vsim_.I_r})
-    if (!(each > 0.0)) throw std::runtime_error("submarine: each number of vsim must be above zero");
+    if (!(each > 0.0)) throw InputError("submarine: each number of vsim must be above zero");
   if (parameters.dynamics == Dynamics::rigid)
-    throw std::runtime_error("submarine: with vsim_compatible it has dynamics of its own; leave dynamics out");
+    throw InputError("submarine: with vsim_compatible it has dynamics of its own; leave dynamics out");
   if (parameters.sea.wave_height != 0.0)
-    throw std::runtime_error("submarine: with vsim_compatible there are no waves; sea.wave_height has to be 0");
+    throw InputError("submarine: with vsim_compatible there are no waves; sea.wave_height has to be 0");
 }
 
 Vector6 VsimPlant::calc_forces(const SubmarineInput& input) const {

@@ -9,7 +9,7 @@ namespace jarol::vehicles {
 
 class VsimPlant : public SubmarineMotion {
  public:
-  /// Throws std::runtime_error if no body can have these parameters, or for a sea that VSIM does not know.
+  /// Throws InputError if no body can have these parameters, or for a sea that VSIM does not know.
   VsimPlant(const SubmarineParameters& parameters, const PlantState& start);
 
   void step(const SubmarineInput& input) override;

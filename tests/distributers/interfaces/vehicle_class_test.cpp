@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "distributers/messages/javiator.h"
+#include "graph/text/errors.h"
 #include "graph/values/value.h"
 
 namespace {
@@ -108,7 +109,7 @@ template <class In>
 std::string error_of() {
   try {
     diver<In>();
-  } catch (const std::invalid_argument& error) { return error.what(); }
+  } catch (const InputError& error) { return error.what(); }
   return "";
 }
 

@@ -141,14 +141,14 @@ TEST_SUITE("distributers/javiator_operator") {
     send_to(adapter, javiator::RollPitchParams{1700, 0, 500, -70});
     send_to(adapter, javiator::AltParams{1500, 500, 1000, 50});
     REQUIRE(adapter.take<&JaviatorOperator::In::gains>(gains));
-    CHECK(gains.lean.told);
+    CHECK(gains.lean.received);
     CHECK(gains.lean.gains.kp == doctest::Approx(1.7));
     CHECK(gains.lean.gains.kd == doctest::Approx(0.5));
     CHECK(gains.lean.gains.kdd == doctest::Approx(-0.07));
-    CHECK(gains.altitude.told);
+    CHECK(gains.altitude.received);
     CHECK(gains.altitude.gains.ki == doctest::Approx(0.5));
-    CHECK_FALSE(gains.yaw.told);
-    CHECK_FALSE(gains.idle.told);
+    CHECK_FALSE(gains.yaw.received);
+    CHECK_FALSE(gains.idle.received);
     CHECK_FALSE(adapter.take<&JaviatorOperator::In::gains>(gains));
     send_to(adapter, javiator::YawParams{1500, 0, 500, 0});
     send_to(adapter, javiator::XYParams{210, 30, -60, 1});
@@ -156,9 +156,9 @@ TEST_SUITE("distributers/javiator_operator") {
     REQUIRE(adapter.take<&JaviatorOperator::In::gains>(gains));
     CHECK(gains.yaw.gains.kp == doctest::Approx(1.5));
     CHECK(gains.position.gains.kdd == doctest::Approx(0.001));
-    CHECK(gains.idle.told);
+    CHECK(gains.idle.received);
     CHECK(gains.idle.signal == 8000);
-    CHECK(gains.lean.told);
+    CHECK(gains.lean.received);
     CHECK_FALSE(take(adapter).heard);  // they are no command
   }
 

@@ -10,6 +10,7 @@
 #include "distributers/javiator/operator.h"
 #include "distributers/messages/javiator.h"
 #include "graph/language/source_set.h"
+#include "graph/text/errors.h"
 
 namespace {
 using namespace jarol;
@@ -78,10 +79,10 @@ TEST_SUITE("distributers/trim_file") {
                             "' is no trim file; it needs a line 'roll' and a line 'pitch', each with a number of rad "
                             "from -1 to 1")
                                .c_str(),
-                           std::invalid_argument);
+                           InputError);
     }
     CHECK_THROWS_WITH_AS(write_trim("/no/such/folder/trim.txt", {}),
-                         "can't write the trim to '/no/such/folder/trim.txt'", std::runtime_error);
+                         "can't write the trim to '/no/such/folder/trim.txt'", InputError);
   }
 
   TEST_CASE("what was trimmed in a run is the level at the start of the next") {
@@ -124,6 +125,6 @@ TEST_SUITE("distributers/trim_file") {
          "' is no trim file; it needs a line 'roll' and a line 'pitch', each with a number of rad from "
          "-1 to 1")
             .c_str(),
-        std::invalid_argument);
+        InputError);
   }
 }

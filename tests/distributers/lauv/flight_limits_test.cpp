@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "graph/math/geometry.h"
+#include "graph/text/errors.h"
 #include "tests/distributers/lauv/inline_messages.h"
 #include "tests/distributers/lauv/origin.h"
 #include "tests/distributers/lauv_console.h"
@@ -31,7 +32,7 @@ M flown() {
 
 template <class M>
 void refuses(const M& m, const char* why) {
-  CHECK_THROWS_WITH_AS(make_maneuver(packed(m), origin), why, std::invalid_argument);
+  CHECK_THROWS_WITH_AS(make_maneuver(packed(m), origin), why, InputError);
 }
 
 template <class M>
@@ -183,6 +184,6 @@ TEST_SUITE("distributers/lauv/flight_limits") {
     reference.flags = imc::Reference::Flags::RADIUS;
     reference.radius = -1e30F;
     CHECK_THROWS_WITH_AS(follower.take(reference, 1, 1, {}, origin, {}),
-                         "the reference's radius is 1e+30 m; it is at most 1000 m", std::invalid_argument);
+                         "the reference's radius is 1e+30 m; it is at most 1000 m", InputError);
   }
 }

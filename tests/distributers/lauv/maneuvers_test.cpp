@@ -12,6 +12,7 @@
 #include "distributers/messages/imc.h"
 #include "distributers/messages/payload.h"
 #include "graph/math/geometry.h"
+#include "graph/text/errors.h"
 #include "tests/distributers/lauv/inline_messages.h"
 #include "tests/distributers/lauv/origin.h"
 
@@ -150,7 +151,7 @@ TEST_SUITE("distributers/lauv_maneuvers") {
     m.flags = imc::Rows::Flags::CURVE_RIGHT;
     is({{0, 0}, {50, 0}, {50, 10}, {0, 10}}, 0, 120 * degree);
     m.hstep = 1e-30F;
-    CHECK_THROWS_WITH_AS(made(m), "more than 1000 lines", std::invalid_argument);
+    CHECK_THROWS_WITH_AS(made(m), "more than 1000 lines", InputError);
   }
 
   TEST_CASE("a loiter is a circle, clockwise but where it says otherwise") {
@@ -169,7 +170,7 @@ TEST_SUITE("distributers/lauv_maneuvers") {
     m.radius = 9;  // too small for the vehicle
     CHECK(made(m).legs[0].leg.radius == -10);
     m.type = imc::Loiter::Type::EIGHT;
-    CHECK_THROWS_WITH_AS(made(m), "a loiter is flown as a circle, types 0 and 1, not 3", std::invalid_argument);
+    CHECK_THROWS_WITH_AS(made(m), "a loiter is flown as a circle, types 0 and 1, not 3", InputError);
   }
 
   TEST_CASE("a station is kept by drifting at its place, to which the vehicle goes at its depth") {
@@ -248,16 +249,14 @@ TEST_SUITE("distributers/lauv_maneuvers") {
     rows.alternation = 200;
     CHECK_NOTHROW(made(rows));
     rows.alternation = 201;
-    CHECK_THROWS_WITH_AS(made(rows), "alternation is 201 %; it is at most 200 %, of hstep", std::invalid_argument);
+    CHECK_THROWS_WITH_AS(made(rows), "alternation is 201 %; it is at most 200 %, of hstep", InputError);
     imc::FollowReference follow;
     follow.timeout = -1;
-    CHECK_THROWS_WITH_AS(made(follow), "timeout is -1 s; it can't be negative", std::invalid_argument);
+    CHECK_THROWS_WITH_AS(made(follow), "timeout is -1 s; it can't be negative", InputError);
   }
 
   TEST_CASE("what can't be flown is refused in words") {
-    const auto refuses = [](const auto& m, const char* why) {
-      CHECK_THROWS_WITH_AS(made(m), why, std::invalid_argument);
-    };
+    const auto refuses = [](const auto& m, const char* why) { CHECK_THROWS_WITH_AS(made(m), why, InputError); };
     auto m = at<imc::Goto>(1, 2);
     m.z = -1;
     refuses(m, "z is -1 m; depths and altitudes are not negative");
@@ -288,6 +287,6 @@ TEST_SUITE("distributers/lauv_maneuvers") {
     path.points.push_back(packed(imc::PathPoint{0, -2e5F, 0}));
     refuses(path, "its place is 200 km from the origin; places within 100 km are gone to");
     refuses(at<imc::YoYo>(0, 0), "up and down by 0 m at 0 rad; these are positive, and no more than 0.785 rad");
-    CHECK_THROWS_WITH_AS(make_maneuver({}, origin), "there is no maneuver in it", std::invalid_argument);
+    CHECK_THROWS_WITH_AS(make_maneuver({}, origin), "there is no maneuver in it", InputError);
   }
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "graph/math/geometry.h"
+#include "graph/text/errors.h"
 #include "tests/distributers/lauv/inline_messages.h"
 #include "tests/distributers/lauv/origin.h"
 
@@ -48,9 +49,7 @@ TEST_SUITE("distributers/lauv_plan") {
       plan.transitions.clear();
       plan.transitions.push_back(packed(transition));
     };
-    const auto refuses = [&](const char* why) {
-      CHECK_THROWS_WITH_AS(make_plan(plan, origin), why, std::invalid_argument);
-    };
+    const auto refuses = [&](const char* why) { CHECK_THROWS_WITH_AS(make_plan(plan, origin), why, InputError); };
     refuses("the plan has no maneuver");
     add("a");
     refuses("the start 'b' is none of its maneuvers: a");
@@ -103,6 +102,6 @@ TEST_SUITE("distributers/lauv_plan") {
     CHECK(make_plan(plan, origin).maneuvers.size() == 12);
     add_up_to(13);
     CHECK_THROWS_WITH_AS(make_plan(plan, origin), "the plan has more than 10000 lines, circles and the like",
-                         std::invalid_argument);
+                         InputError);
   }
 }

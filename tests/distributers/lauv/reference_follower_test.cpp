@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "graph/math/geometry.h"
+#include "graph/text/errors.h"
 #include "tests/distributers/lauv/inline_messages.h"
 #include "tests/distributers/lauv/origin.h"
 
@@ -31,7 +32,7 @@ struct Follows {
 
   void take(const imc::Reference& reference) { REQUIRE_NOTHROW(follower.take(reference, 1, 1, {}, origin, motion)); }
   void refuse(const imc::Reference& reference, const char* why) {
-    CHECK_THROWS_WITH_AS(follower.take(reference, 1, 1, {}, origin, motion), why, std::invalid_argument);
+    CHECK_THROWS_WITH_AS(follower.take(reference, 1, 1, {}, origin, motion), why, InputError);
   }
   // The vehicle is at the end of its line.
   void arrive() {

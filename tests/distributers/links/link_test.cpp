@@ -3,9 +3,12 @@
 
 #include <doctest/doctest.h>
 
+#include <cerrno>
+#include <new>
 #include <stdexcept>
 #include <system_error>
 
+#include "graph/text/errors.h"
 #include "tests/distributers/links/open_link.h"
 #include "tests/distributers/links/pairs.h"
 #include "tests/refused_threads.h"
@@ -87,6 +90,22 @@ class ThrowingTransport : public Transport {
   const bool sends_;
 };
 
+// Can't be opened.
+template <class Error>
+class ClosedTransport : public ThrowingTransport {
+ public:
+  explicit ClosedTransport(const Error& error) : ThrowingTransport(false), error_(error) {}
+  void open() override { throw error_; }
+
+ private:
+  const Error error_;
+};
+
+template <class Error>
+std::unique_ptr<Link> closed_by(const Error& error) {
+  return make(std::make_unique<ClosedTransport<Error>>(error));
+}
+
 // What a call throws, tried until it does.
 template <class Call>
 std::string thrown_by(Call call) {
@@ -94,7 +113,7 @@ std::string thrown_by(Call call) {
   CHECK(wait_for([&] {
     try {
       call();
-    } catch (const std::runtime_error& error) { thrown = error.what(); }
+    } catch (const Unfinished& error) { thrown = error.what(); }
     return !thrown.empty();
   }));
   return thrown;
@@ -117,6 +136,16 @@ TEST_SUITE("distributers/links/link") {
     CHECK(thrown_by([&] { sends->receive(ids); }) == sending);
     sends->disconnect();
     CHECK_FALSE(sends->sends());
+  }
+
+  TEST_CASE(
+      "a transport that can't be opened is bad input, whatever it throws, but where the machine lacks something") {
+    CHECK_THROWS_WITH_AS(closed_by(std::logic_error("no modem"))->connect(), "no modem", InputError);
+    CHECK_THROWS_WITH_AS(closed_by(std::runtime_error("no carrier"))->connect(), "no carrier", InputError);
+    CHECK_THROWS_WITH_AS(closed_by(Unfinished("no random numbers"))->connect(), "no random numbers", Unfinished);
+    CHECK_THROWS_AS(closed_by(std::bad_alloc())->connect(), std::bad_alloc);
+    const std::system_error no_descriptors(EMFILE, std::generic_category());
+    CHECK_THROWS_AS(closed_by(no_descriptors)->connect(), std::system_error);
   }
 
   TEST_CASE("a link that gets no thread, or only one, is closed again and can be connected later") {

@@ -1,5 +1,6 @@
 // In one file: all cases attack one pair of seals.
 #include "distributers/links/seal.h"
+#include "graph/text/errors.h"
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
@@ -69,7 +70,7 @@ class File {
 std::string refusal_of(const std::string& path) {
   try {
     read_key(path);
-  } catch (const std::invalid_argument& error) { return error.what(); }
+  } catch (const jarol::InputError& error) { return error.what(); }
   return "";
 }
 }  // namespace

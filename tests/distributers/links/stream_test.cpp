@@ -18,6 +18,7 @@
 #include "distributers/links/serial.h"
 #include "distributers/links/tcp.h"
 #include "distributers/messages/javiator.h"
+#include "graph/text/errors.h"
 #include "tests/distributers/links/pairs.h"
 
 namespace {
@@ -234,13 +235,13 @@ TEST_SUITE("distributers/links/stream") {
     auto first = make(std::move(transport));
     REQUIRE(wait_for([&] { return count_of(*first, "peers") == 1; }));
     const std::string refusal = "can't open serial " + name + " at 9600 baud: it is in use by another process";
-    CHECK_THROWS_WITH_AS(make(std::make_unique<SerialTransport>(name, 9600)), refusal.c_str(), std::runtime_error);
+    CHECK_THROWS_WITH_AS(make(std::make_unique<SerialTransport>(name, 9600)), refusal.c_str(), InputError);
     termios settings{};
     const Descriptor look(::open(name.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK));
     REQUIRE(tcgetattr(look.get(), &settings) == 0);
     CHECK(cfgetospeed(&settings) == B115200);  // nor did the refused one change it
     first.reset();
-    CHECK_THROWS_WITH_AS(make(std::make_unique<SerialTransport>(name, 9600)), refusal.c_str(), std::runtime_error);
+    CHECK_THROWS_WITH_AS(make(std::make_unique<SerialTransport>(name, 9600)), refusal.c_str(), InputError);
     std::thread last([&] {
       std::this_thread::sleep_for(50ms);
       twin.held.close();

@@ -6,6 +6,7 @@
 #include "distributers/session/replayer.h"
 #include "distributers/session/runner.h"
 #include "distributers/session/session.h"
+#include "graph/text/errors.h"
 #include "tasks/values/lauv.h"
 #include "tests/distributers/all_parts.h"
 
@@ -118,8 +119,7 @@ connections: [motion -> forward.motion, hand -> forward.actuation]
         CheckpointRefused);
     CHECK_THROWS_WITH_AS(
         Session(all_built_in(), counting_text(), {.recording = {.file = file.path, .checkpoints = 1s}}),
-        ".recording.checkpoints belongs to a Runner; a session is saved by checkpoint() where it stands",
-        std::invalid_argument);
+        ".recording.checkpoints belongs to a Runner; a session is saved by checkpoint() where it stands", InputError);
     const auto text = std::make_shared<const Source>(Source{"t.yaml", R"(
 graph: t
 timing: {period: 10ms}
@@ -130,7 +130,7 @@ connections: [motion -> forward.motion, hand -> forward.actuation]
     CHECK_THROWS_WITH_AS(Session(all_built_in(), text, {.fed = {"*"}, .recording = {.file = file.path}}),
                          ".recording: 'hand' is fed and has no channel, from which a replay would take its values; "
                          "give it one in the graph, as in {channel: dune.motion}",
-                         std::invalid_argument);
+                         InputError);
   }
 
   TEST_CASE("with execution times a late task stops the run, and the outcome says which") {
@@ -160,6 +160,6 @@ connections: [motion -> forward.motion, hand -> forward.actuation]
                          ".workers belongs to the virtual clock; the real one goes by 'platform'", NotExecutable);
     CHECK_THROWS_WITH_AS(
         Runner(load_counting(), {.end = 1s, .stops = {{".stops", 2s, [](const Checkpoint&) {}, "lost"}}}),
-        ".stops: the run ends at 1 s, before 2 s", std::invalid_argument);
+        ".stops: the run ends at 1 s, before 2 s", InputError);
   }
 }

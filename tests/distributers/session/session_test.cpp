@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "graph/text/errors.h"
 #include "tasks/values/lauv.h"
 #include "tests/distributers/all_parts.h"
 
@@ -169,7 +170,7 @@ TEST_SUITE("distributers/session") {
     Session session = session_of(adding, {.fed = {"a", "neptus"}});
     CHECK_THROWS_WITH_AS(session.value<float>("sum.out"), "'sum.out' is a double, not a float", WrongType);
     CHECK_THROWS_WITH_AS(session.value<double>("goal"), "'goal' is a Setpoint, not a double", WrongType);
-    CHECK_THROWS_WITH_AS(session.feed("a", 1), "'a' takes a double, not a int32", WrongType);
+    CHECK_THROWS_WITH_AS(session.feed("a", 1), "'a' takes a double, not an int32", WrongType);
     CHECK_THROWS_WITH_AS(session.feed("neptus.setpoint", tasks::Motion{}),
                          "'neptus.setpoint' takes a Setpoint, not a Motion", WrongType);
   }
@@ -266,11 +267,11 @@ TEST_SUITE("distributers/session") {
                           .note = [&](const std::string& note) { notes.push_back(note); }});
     CHECK(notes == std::vector<std::string>{});
     CHECK_THROWS_WITH_AS(session_of(counting, {.workers = 2, .real_clock = true}),
-                         "workers belong to the virtual clock; the real one goes by 'platform'", NotExecutable);
+                         ".workers belongs to the virtual clock; the real one goes by 'platform'", NotExecutable);
     CHECK_THROWS_WITH_AS(session_of(counting, {.real_clock = true, .execution = "wcet"}),
                          ".execution belongs to the virtual clock; on the real one activations take the time that they "
                          "take",
-                         std::invalid_argument);
+                         InputError);
   }
 
   TEST_CASE("all that is wrong with a graph is one SpecError, as on the command line") {

@@ -5,6 +5,7 @@
 #include "graph/analysis/check.h"
 #include "graph/language/problems.h"
 #include "graph/registry.h"
+#include "graph/text/errors.h"
 #include "tests/graph/graph_of.h"
 
 namespace {
@@ -40,7 +41,7 @@ TEST_SUITE("graph/analysis/policies") {
       CHECK((policy.check != nullptr));
     }
     Registry more = registry;
-    CHECK_THROWS_WITH_AS(more.add(policies::edf), "there is a 'edf' already; names are unique", std::invalid_argument);
+    CHECK_THROWS_WITH_AS(more.add(policies::edf), "there is a 'edf' already; names are unique", InputError);
   }
 
   TEST_CASE("under global EDF alone a task has no core of its own, and 'run' executes the first two") {

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "graph/analysis/execution_times.h"
+#include "graph/text/errors.h"
 #include "tests/graph/graph_of.h"
 
 namespace {
@@ -178,10 +179,9 @@ platform: {cores: 2, policy: POLICY}
   TEST_CASE("without a WCET, and without offsets that hold, there is no schedule") {
     const Graph none = tests::graph_of("graph: t\ntasks: {a: {type: Counter, period: 10ms}}\n");
     CHECK_THROWS_WITH_AS(schedule_of(none, ExecutionTimes::wcet(none)),
-                         "task 'a' has no 'wcet', by which tasks are given to cores", std::invalid_argument);
+                         "task 'a' has no 'wcet', by which tasks are given to cores", InputError);
     const Graph any = tests::graph_of(two + "platform: {policy: edf, phasing: any}\n");
     CHECK_THROWS_WITH_AS(schedule_of(any, ExecutionTimes::wcet(any)),
-                         "'phasing: any' leaves open when tasks are released; state 'phasing: given'",
-                         std::invalid_argument);
+                         "'phasing: any' leaves open when tasks are released; state 'phasing: given'", InputError);
   }
 }

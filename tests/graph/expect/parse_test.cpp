@@ -118,7 +118,7 @@ TEST_SUITE("graph/expect/parse") {
 
   TEST_CASE("a place within the text is shown by its column, in quotes too") {
     for (const std::string condition : {"a.out within -1 of 3", "settling_time(a.out to 3 within -1) < 2s"})
-      CHECK(wrong_condition(condition).find("nothing is within less than zero; write how far it may be off") !=
+      CHECK(wrong_condition(condition).find("the tolerance is below zero; write how far it may be off") !=
             std::string::npos);
     CHECK(wrong_condition("max(a.out) afer 3s < 2").starts_with("c:1:12: error: "));
     CHECK(wrong_condition("\"max(a.out) afer 3s < 2\"").starts_with("c:1:13: error: "));

@@ -77,7 +77,7 @@ tasks:
   a: {type: Relay}
 connections:
   - i -> a.in
-)") == "t.yaml:8:5: error: connection i -> a.in joins a Motion to a double; both ends carry one type\n"
+)") == "t.yaml:8:5: error: connection i -> a.in joins a Motion to a double; both ends must have the same type\n"
        "    - i -> a.in\n"
        "      ^");
   }
@@ -159,12 +159,12 @@ connections: [a.out -> b.a, a.out -> b.b, a.out -> o]
     CHECK(graph.connections.size() == 3);
   }
 
-  TEST_CASE("what is planned for later says that it is not there yet") {
+  TEST_CASE("what is planned for later says that it is not supported yet") {
     CHECK(report_on("graph: t\nmodes: {}\nconnections:\n  - {connect: a.x -> b.y}\n") ==
-          "t.yaml:2:1: error: 'modes' is not there yet; leave it out\n"
+          "t.yaml:2:1: error: 'modes' is not supported yet; leave it out\n"
           "  modes: {}\n"
           "  ^\n"
-          "t.yaml:4:5: error: annotations of connections are not there yet; write 'from.output -> to.input'\n"
+          "t.yaml:4:5: error: annotations of connections are not supported yet; write 'from.output -> to.input'\n"
           "    - {connect: a.x -> b.y}\n"
           "      ^");
   }

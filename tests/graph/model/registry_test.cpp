@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "graph/text/errors.h"
 #include "graph/values/type_of.h"
 
 TEST_SUITE("graph/registry") {
@@ -39,13 +40,13 @@ TEST_SUITE("graph/registry") {
     Registry registry;
     CHECK_THROWS_WITH_AS(registry.add(copies(&too_large, &nothing)),
                          "task 'Copies' input 'value' (Large) has 1073741825 bytes; values have at most 1GiB",
-                         std::invalid_argument);
+                         InputError);
     CHECK_THROWS_WITH_AS(registry.add(copies(&nothing, &too_large)),
                          "task 'Copies' output 'value' (Large) has 1073741825 bytes; values have at most 1GiB",
-                         std::invalid_argument);
+                         InputError);
     CHECK_THROWS_WITH_AS(registry.add(DistributerClass{"Hands", "over", {{"all", Direction::in, &large, ""}}}),
                          "distributer 'Hands' channel 'all' (Large) has 1073741825 bytes; values have at most 1GiB",
-                         std::invalid_argument);
+                         InputError);
     CHECK(registry.find_task("Copies") == nullptr);
     CHECK(registry.find_distributer("Hands") == nullptr);
     CHECK(registry.type_names().empty());

@@ -60,6 +60,7 @@ TEST_SUITE("graph/text") {
 
   TEST_CASE("in XML, DOT and CSV a text can't leave its place") {
     CHECK(xml_text("a & <b> \"c'd\x1b\n") == "a &amp; &lt;b&gt; &quot;c&#39;d\\x1b\\n");
+    CHECK(xml_attribute("a & <b> \"c'd\x1b\n") == "a &amp; &lt;b&gt; &quot;c'd\\x1b\\n");
     CHECK(dot_text("a\"]; b [x=\"\\") == R"(a\"]; b [x=\"\\)");
     CHECK(dot_text("a\nb") == R"(a\\nb)");
     CHECK(csv_text("a.b") == "a.b");

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 
+#include "graph/text/errors.h"
 #include "tests/runtime/random_model.h"
 #include "tests/runtime/run_on_threads.h"
 
@@ -105,7 +106,7 @@ tasks: {a: {type: Counter, period: 10ms}, b: {type: Counter, period: 20ms}, c: {
     options.priority = 2;
     CHECK_THROWS_WITH_AS(run(text, 10ms, 1, options),
                          "SCHED_FIFO priority 2 is too low; tasks take 2 below it, so that it has to be 3 at least",
-                         std::invalid_argument);
+                         InputError);
   }
 
   TEST_CASE("in pieces it is the same run") { check_random_graph(5, priorities_2, 9); }

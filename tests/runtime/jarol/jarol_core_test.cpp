@@ -14,6 +14,7 @@
 #include <string>
 #include <thread>
 
+#include "graph/text/errors.h"
 #include "tests/graph/graph_of.h"
 #include "tests/runtime/at_some_speed.h"
 
@@ -305,7 +306,7 @@ connections: [c.out -> to_plant]
       try {
         core.run_for(1h);
       } catch (const std::runtime_error& thrown) { error = thrown.what(); }
-      _exit(error == "there is no thread to be had: Resource temporarily unavailable" ? 0 : 1);
+      _exit(error == "no thread can be started: Resource temporarily unavailable" ? 0 : 1);
     }
     int status = -1;
     REQUIRE(waitpid(child, &status, 0) == child);
@@ -319,7 +320,7 @@ connections: [c.out -> to_plant]
     CHECK_THROWS_WITH_AS(
         JarolCore(graph, {}),
         "threads count in periods of the vehicle's channels, 10ms; task 'b' has 15ms, which is no multiple of it",
-        std::invalid_argument);
+        InputError);
   }
 
   TEST_CASE("an interrupt ends it") {

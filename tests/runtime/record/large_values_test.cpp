@@ -4,6 +4,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "graph/text/errors.h"
 #include "graph/values/type_of.h"
 #include "runtime/record/recorder.h"
 
@@ -135,8 +136,7 @@ TEST_SUITE("runtime/large_values") {
     sink.free = true;
     sink.free.notify_all();
     CHECK_THROWS_WITH_AS(recorder.close(),
-                         "values could not be written as fast as they came; from 7ns on they are lost",
-                         std::length_error);
+                         "values could not be written as fast as they came; from 7ns on they are lost", InputError);
     CHECK(sink.got == all);
   }
 
@@ -152,7 +152,7 @@ TEST_SUITE("runtime/large_values") {
     recorder.append(Duration(4), 0, &number, sizeof number);
     const std::string why = "output 'table' had 1072693249 bytes at 2ns; values of up to 1072693248 can be recorded";
     CHECK(recorder.lost() == why);
-    CHECK_THROWS_WITH_AS(recorder.close(), why.c_str(), std::length_error);
+    CHECK_THROWS_WITH_AS(recorder.close(), why.c_str(), InputError);
     CHECK(recorder.why_not_all(sink) == why);
     CHECK(sink.got == std::vector<LengthsOf::Got>{{0, 1, 3}, {0, 1, 3}});
   }

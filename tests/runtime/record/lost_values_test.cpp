@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "graph/text/errors.h"
 #include "runtime/record/recorded_run.h"
 #include "runtime/record/recording_writer.h"
 #include "tests/runtime/trace_of.h"
@@ -83,7 +84,7 @@ TEST_SUITE("runtime/lost_values") {
     stalled.stands.wait(false);
     LossyRecording::append(recorder, lost_count, 1);
     stalled.let_go();
-    CHECK_THROWS_AS(recorder.close(), std::length_error);
+    CHECK_THROWS_AS(recorder.close(), InputError);
     const RecordedRun run = recording.read(lost_count);
     REQUIRE(run.gaps().size() == 1);
     const Gap gap = run.gaps()[0];
@@ -103,8 +104,7 @@ TEST_SUITE("runtime/lost_values") {
     LossyRecording::append(recorder, lost_count);
     stalled.let_go();
     CHECK_THROWS_WITH_AS(recorder.close(),
-                         "values could not be written as fast as they came; from 76454ns on they are lost",
-                         std::length_error);
+                         "values could not be written as fast as they came; from 76454ns on they are lost", InputError);
     const RecordedRun run = recording.read(lost_count);
     REQUIRE(run.gaps().size() == 1);
     const Gap gap = run.gaps()[0];
@@ -122,7 +122,7 @@ TEST_SUITE("runtime/lost_values") {
     recorder.never_wait();
     LossyRecording::append(recorder, lost_count);
     stalled.let_go();
-    CHECK_THROWS_AS(recorder.close(), std::length_error);
+    CHECK_THROWS_AS(recorder.close(), InputError);
     CHECK(recording.read(lost_count).gaps().empty());
   }
 

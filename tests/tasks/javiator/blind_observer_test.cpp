@@ -11,7 +11,7 @@
 namespace {
 using namespace jarol::tasks;
 using jarol::tests::dt;
-using jarol::tests::gravity;
+using jarol::tests::g_earth;
 using jarol::tests::tick;
 
 constexpr double quarter = std::numbers::pi / 2;
@@ -20,7 +20,7 @@ struct Blind {
   BlindObserver::Param param{};
   BlindObserver::State state{};
   BlindObserver::Out out{};
-  BlindObserver::In in{.estimate = {.altitude = 100, .lift = gravity, .rates_known = true}, .lift = {1}};
+  BlindObserver::In in{.estimate = {.altitude = 100, .lift = g_earth, .rates_known = true}, .lift = {1}};
 
   const BlindMotion& run(int periods = 1) {
     for (int i = 0; i < periods; ++i) BlindObserver::run(param, tick, in, state, out);
@@ -41,7 +41,7 @@ struct PushedBody {
     constexpr int parts = 15;
     for (int i = 0; i < parts; ++i) {
       place += speed * dt / parts;
-      speed += (gravity * std::tan(lean) - p.drag * speed) * dt / parts;
+      speed += (g_earth * std::tan(lean) - p.drag * speed) * dt / parts;
     }
   }
   // with the lean that is taken for true
@@ -61,7 +61,7 @@ TEST_SUITE("tasks/blind_observer") {
     b.in.estimate.q = -0.2;
     b.in.estimate.yaw = 0.3;
     b.in.estimate.r = 0.05;
-    b.in.estimate.drag_x = -gravity * 0.1;
+    b.in.estimate.drag_x = -g_earth * 0.1;
     const BlindMotion& m = b.run(400);
     CHECK(m.x == doctest::Approx(1 + 0.5 * dt).epsilon(1e-4).scale(0));
     CHECK(m.v_x == doctest::Approx(0.5).epsilon(0.01).scale(0));
@@ -83,8 +83,8 @@ TEST_SUITE("tasks/blind_observer") {
       const BlindMotion& m = b.run();
       CHECK(m.roll == doctest::Approx(c.roll));
       CHECK(m.pitch == doctest::Approx(c.pitch));
-      CHECK(m.v_x == doctest::Approx(c.north * gravity * 0.1 * dt));
-      CHECK(m.v_y == doctest::Approx(c.east * gravity * 0.1 * dt));
+      CHECK(m.v_x == doctest::Approx(c.north * g_earth * 0.1 * dt));
+      CHECK(m.v_y == doctest::Approx(c.east * g_earth * 0.1 * dt));
     }
   }
 
@@ -211,9 +211,9 @@ TEST_SUITE("tasks/blind_observer") {
     Blind b;
     b.in.estimate.pitch = -0.1;
     b.lose_imu();
-    b.state.lift = gravity;
+    b.state.lift = g_earth;
     b.in.estimate.altitude = 0.05;
-    CHECK(b.run().lift == doctest::Approx(gravity * gain(0.3)));
+    CHECK(b.run().lift == doctest::Approx(g_earth * gain(0.3)));
     Blind level;
     level.in.estimate.pitch = -0.1;
     level.in.estimate.altitude = 0.05;
@@ -255,10 +255,10 @@ TEST_SUITE("tasks/blind_observer") {
     b.lose_imu();
     CHECK(b.run().lift == doctest::Approx(10));
     b.in.lift.thrust = 1.2;
-    CHECK(b.run(40).lift == doctest::Approx(10 + 0.2 * gravity).epsilon(1e-4).scale(0));
+    CHECK(b.run(40).lift == doctest::Approx(10 + 0.2 * g_earth).epsilon(1e-4).scale(0));
     b.in.estimate.climb = 0.5;
     // the rotors turn faster than before
-    CHECK(b.run().lift == doctest::Approx(10 + 0.2 * gravity - std::sqrt(1.2) * 0.83 * 0.5).epsilon(1e-4).scale(0));
+    CHECK(b.run().lift == doctest::Approx(10 + 0.2 * g_earth - std::sqrt(1.2) * 0.83 * 0.5).epsilon(1e-4).scale(0));
   }
 
   TEST_CASE("it knows nothing 0.3 s after a laser has last seen along an axis") {

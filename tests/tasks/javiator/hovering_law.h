@@ -11,7 +11,7 @@ struct Altitude {
   tasks::AltitudeControl::State state{.z = {.place = 1}, .trim = 1, .mean_trim = 1, .aloft = 1, .lifted = true};
   tasks::AltitudeControl::Out out{};
   tasks::AltitudeControl::In in{.estimate = {.altitude = 1,
-                                             .lift = gravity,
+                                             .lift = g_earth,
                                              .rates_known = true,
                                              .attitude_known = true,
                                              .altitude_known = true,

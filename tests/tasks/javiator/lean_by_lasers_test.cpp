@@ -13,7 +13,7 @@ namespace {
 using namespace jarol::tasks;
 using jarol::tests::Altitude;
 using jarol::tests::dt;
-using jarol::tests::gravity;
+using jarol::tests::g_earth;
 using jarol::tests::HeardHelicopter;
 using jarol::tests::hovering;
 using jarol::tests::tick;
@@ -83,7 +83,7 @@ TEST_SUITE("tasks/lean_by_lasers") {
   TEST_CASE(
       "a sonar that jumps by 15 cm is believed if nobody knows how it climbs, but not while lasers show how it leans") {
     const auto climbed = [](bool known, double sonar_off) {
-      const BlindMotion blind{.lift = gravity, .known = known};
+      const BlindMotion blind{.lift = g_earth, .known = known};
       return estimate_of(blind, 0, sonar_off).altitude - estimate_of(blind).altitude;
     };
     CHECK(climbed(false, 0.15) > 0.02);
@@ -93,7 +93,7 @@ TEST_SUITE("tasks/lean_by_lasers") {
   }
 
   TEST_CASE("a fix grows with the lean to its wall by what the ray points down, and with the yaw by what it is askew") {
-    const FlightEstimate e = estimate_of({.roll = 0.05, .pitch = 0.1, .lift = gravity, .known = true});
+    const FlightEstimate e = estimate_of({.roll = 0.05, .pitch = 0.1, .lift = g_earth, .known = true});
     CHECK(e.fix_x.is_new);
     CHECK(e.fix_y.is_new);
     CHECK(e.fix_x.slope == doctest::Approx(0.08 - 8.07 * std::sin(0.1)));
@@ -109,8 +109,8 @@ TEST_SUITE("tasks/lean_by_lasers") {
     PositionControl::State state{.holding = true};
     PositionControl::Out out{};
     PositionControl::run({}, tick, in, state, out);
-    CHECK(-gravity * std::tan(out.goal.pitch) == doctest::Approx(0.6 * 0.1).epsilon(0.01).scale(0));
-    CHECK(gravity * std::tan(out.goal.roll) == doctest::Approx(-1.5 * 0.2).epsilon(0.01).scale(0));
+    CHECK(-g_earth * std::tan(out.goal.pitch) == doctest::Approx(0.6 * 0.1).epsilon(0.01).scale(0));
+    CHECK(g_earth * std::tan(out.goal.roll) == doctest::Approx(-1.5 * 0.2).epsilon(0.01).scale(0));
   }
 
   TEST_CASE(

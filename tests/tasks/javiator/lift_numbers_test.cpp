@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 
 using tests::Altitude;
 using tests::dt;
-using tests::gravity;
+using tests::g_earth;
 
 // Standing with rotors at idle.
 struct Grounded : Altitude {
@@ -33,10 +33,10 @@ TEST_SUITE("tasks/javiator_control/lift") {
     Altitude low;
     low.in.estimate.altitude = 0.99;
     low.state.z.place = low.in.directive.altitude;
-    CHECK(low.run() == doctest::Approx(1 + 0.01 * (12 + dt) / gravity));
+    CHECK(low.run() == doctest::Approx(1 + 0.01 * (12 + dt) / g_earth));
     Altitude rising;
     rising.in.estimate.climb = 0.01;
-    CHECK(rising.run() == doctest::Approx(1 - 0.07 / gravity));
+    CHECK(rising.run() == doctest::Approx(1 - 0.07 / g_earth));
   }
 
   TEST_CASE("a landing that has lasted 8 s gets faster by 5 cm/s each second, up to 40 cm/s") {
@@ -100,14 +100,14 @@ TEST_SUITE("tasks/javiator_control/lift") {
 
   TEST_CASE("thrust is learnt at 10 rad/s from the lift that is felt, between 0.4 and 1.7 of hover") {
     Altitude a;
-    a.in.estimate.lift = 0.9 * gravity;
+    a.in.estimate.lift = 0.9 * g_earth;
     a.run();
     CHECK(a.state.trim == doctest::Approx(1 + 10 * dt * 0.1));
     CHECK(a.state.mean_trim == doctest::Approx(1 + 10 * dt * 0.1 * dt));
     a.in.estimate.lift = 0;
     a.run(1000);
     CHECK(a.state.trim == 1.7);
-    a.in.estimate.lift = 4 * gravity;
+    a.in.estimate.lift = 4 * g_earth;
     a.run(1000);
     CHECK(a.state.trim == 0.4);
   }
@@ -120,7 +120,7 @@ TEST_SUITE("tasks/javiator_control/lift") {
     landing.in.directive = {.state = FlightState::landing};
     landing.in.estimate.roll = -0.2;
     landing.in.estimate.altitude = foot + near - 1e-6;
-    landing.in.estimate.lift = 1.5 * gravity;
+    landing.in.estimate.lift = 1.5 * g_earth;
     const auto trim_of = [](Altitude a) {
       a.run();
       return a.state.trim;
@@ -152,7 +152,7 @@ TEST_SUITE("tasks/javiator_control/lift") {
     Altitude a;
     a.in.estimate.climb = 0.01;
     a.run();
-    CHECK(a.state.expected == doctest::Approx(-0.07 / gravity * dt / (0.06 + dt)));
+    CHECK(a.state.expected == doctest::Approx(-0.07 / g_earth * dt / (0.06 + dt)));
   }
 
   TEST_CASE("a lean is made up for until half of the thrust is lost, which is at 60 degrees") {
@@ -160,7 +160,7 @@ TEST_SUITE("tasks/javiator_control/lift") {
       CAPTURE(lean);
       Altitude rolled;
       rolled.state.trim = 0.5;
-      rolled.in.estimate.lift = gravity;
+      rolled.in.estimate.lift = g_earth;
       rolled.in.estimate.roll = lean;
       CHECK(rolled.run() == doctest::Approx(0.5 + 1 / std::max(std::cos(lean), 0.5) - 1));
       Altitude both;
@@ -270,7 +270,7 @@ TEST_SUITE("tasks/javiator_control/lift") {
     Altitude falls;
     falls.in.directive.altitude = 0;
     falls.in.estimate.altitude = 0.1;
-    falls.in.estimate.lift = 0.8 * gravity;
+    falls.in.estimate.lift = 0.8 * g_earth;
     falls.state.z.place = 0.1;
     falls.state.trim = 0.6;
     CHECK(falls.run() < 0.6);

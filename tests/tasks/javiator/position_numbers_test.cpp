@@ -13,22 +13,22 @@ using namespace jarol::tasks;
 using namespace std::chrono_literals;
 
 using tests::dt;
-using tests::gravity;
+using tests::g_earth;
 using tests::tick;
 
 struct Position {
   PositionControl::State state{.holding = true};
   PositionControl::Out out{};
   PositionControl::In in{
-      .estimate = {.lift = gravity, .rates_known = true, .attitude_known = true, .position_known = true},
+      .estimate = {.lift = g_earth, .rates_known = true, .attitude_known = true, .position_known = true},
       .directive = {.state = FlightState::flying, .hold_position = true}};
 
   void run(int periods = 1) {
     for (int i = 0; i < periods; ++i) PositionControl::run({}, tick, in, state, out);
   }
   // The acceleration to the north that a level helicopter has from its lean.
-  double north() const { return -gravity * std::tan(out.goal.pitch); }
-  double east() const { return gravity * std::tan(out.goal.roll); }
+  double north() const { return -g_earth * std::tan(out.goal.pitch); }
+  double east() const { return g_earth * std::tan(out.goal.roll); }
 };
 }  // namespace
 

@@ -20,7 +20,7 @@ struct Body {
   std::array<double, 4> signals{8000, 8000, 8000, 8000}, parts{1, 1, 1, 1};
 
   void run(int steps, const std::array<double, 4>& sent, double roll_torque, double pitch_torque) {
-    constexpr double h = 1e-4, each = 0.3 * 1.5 * gravity / 4 / 0.0144;
+    constexpr double h = 1e-4, each = 0.3 * 1.5 * g_earth / 4 / 0.0144;
     for (int i = 0; i < steps; ++i) {
       std::array<double, 4> thrusts{};
       for (std::size_t m = 0; m < 4; ++m) {

@@ -8,6 +8,7 @@
 
 #include "distributers/messages/imc.h"
 #include "distributers/messages/javiator.h"
+#include "graph/text/errors.h"
 
 namespace {
 using namespace jarol;
@@ -77,11 +78,9 @@ TEST_SUITE("console/desk") {
 
   TEST_CASE("who does not command sends nothing") {
     Desks desks;
-    CHECK_THROWS_WITH_AS(desks.send(7, 1, 10), "this page does not command 'terminal'; take it first",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(desks.send(7, 1, 10), "this page does not command 'terminal'; take it first", InputError);
     desks.take(7);
-    CHECK_THROWS_WITH_AS(desks.send(8, 1, 10), "this page does not command 'terminal'; take it first",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(desks.send(8, 1, 10), "this page does not command 'terminal'; take it first", InputError);
     CHECK(desks.taken().empty());
   }
 
@@ -89,9 +88,9 @@ TEST_SUITE("console/desk") {
     Desks desks;
     CHECK_THROWS_WITH_AS(
         desks.ask(7, R"({"do": "take", "desk": "terminal", "as": "me", "sticks": {"roll": 0.04, "pitch": -0.4}})"),
-        "stick 'pitch' is at -0.4; centre it to take over", std::invalid_argument);
+        "stick 'pitch' is at -0.4; centre it to take over", InputError);
     CHECK_THROWS_WITH_AS(desks.ask(7, R"({"do": "take", "desk": "terminal", "as": "me"})"),
-                         "expected the sticks' places as \"sticks\", as in {\"roll\": 0}", std::invalid_argument);
+                         "expected the sticks' places as \"sticks\", as in {\"roll\": 0}", InputError);
     CHECK(desks.desk.news(desks.now).is_null());
   }
 
@@ -99,7 +98,7 @@ TEST_SUITE("console/desk") {
     Desks desks;
     desks.take(7);
     CHECK_THROWS_WITH_AS(desks.take(8), "another page commands 'terminal'; it has to release it, or to fall silent",
-                         std::invalid_argument);
+                         InputError);
     SUBCASE("it lets go") { desks.ask(7, R"({"do": "release", "desk": "terminal"})"); }
     SUBCASE("it lets go of what it has lost, too") {
       desks.ask(7, R"({"do": "release", "desk": "terminal"})");
@@ -112,7 +111,7 @@ TEST_SUITE("console/desk") {
     }
     CHECK_NOTHROW(desks.take(8));
     CHECK_NOTHROW(desks.send(8, 1, 10));
-    CHECK_THROWS_AS(desks.send(7, 9, 10), std::invalid_argument);
+    CHECK_THROWS_AS(desks.send(7, 9, 10), InputError);
   }
 
   TEST_CASE("all pages learn why nobody commands any more") {
@@ -184,8 +183,7 @@ TEST_SUITE("console/desk") {
         R"({"do": "send", "desk": "terminal", "message": "COMMAND_DATA", "sequence": 1, "fields": {"roll": 9}})";
     ask(lean, Desk::max_behind);
     CHECK(desks.taken() == std::vector<int>{9});
-    CHECK_THROWS_WITH_AS(ask(lean, old), "what this page shows is 3.4 s old: 'COMMAND_DATA' is not sent",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(ask(lean, old), "what this page shows is 3.4 s old: 'COMMAND_DATA' is not sent", InputError);
     CHECK(desks.taken().empty());
     // nor is it heard
     desks.now += Desk::patience;
@@ -194,8 +192,7 @@ TEST_SUITE("console/desk") {
     CHECK(json(desks.desk.news(desks.now)) ==
           json{{"terminal", {{"commander", nullptr}, {"why", "what the page that commanded shows is 3.4 s old"}}}});
     const std::string take = R"({"do": "take", "desk": "terminal", "as": "me", "sticks": {"roll": 0}})";
-    CHECK_THROWS_WITH_AS(ask(take, old), "what this page shows is 3.4 s old: it can't take over",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(ask(take, old), "what this page shows is 3.4 s old: it can't take over", InputError);
     CHECK_NOTHROW(ask(take, 0ms));
     CHECK(desks.commander() == "me");
     // who is silent after that was silent
@@ -223,8 +220,7 @@ TEST_SUITE("console/desk") {
     const auto abort_of_another = [&] {
       desk.obey(8, json::parse(R"({"do": "send", "desk": "neptus", "message": "Abort", "sequence": 1})"), now, 30s);
     };
-    CHECK_THROWS_WITH_AS(abort_of_another(), "this page does not command 'neptus'; take it first",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(abort_of_another(), "this page does not command 'neptus'; take it first", InputError);
     ask(R"({"do": "release", "desk": "neptus"})", 30s);
     CHECK(json(desk.news(now))["neptus"]["why"] == "it was released");
     port->receive(aborts);
@@ -266,7 +262,7 @@ TEST_SUITE("console/desk") {
     Desks desks;
     desks.take(7);
     const auto refused = [&](const std::string& message, const char* why) {
-      CHECK_THROWS_WITH_AS(desks.ask(7, message), why, std::invalid_argument);
+      CHECK_THROWS_WITH_AS(desks.ask(7, message), why, InputError);
     };
     refused(R"({"do": "take", "desk": "neptus"})", "there is no desk of 'neptus'; there are: terminal");
     refused(R"({"do": "take", "desk": ")" + std::string(5000, 'x') + R"("})",
@@ -278,7 +274,7 @@ TEST_SUITE("console/desk") {
     refused(R"({"do": "send", "desk": "terminal", "message": "FLY"})", "expected a number that grows as \"sequence\"");
     refused(R"({"do": "send", "desk": "terminal", "message": "SHUT_DOWN", "sequence": -1})",
             "expected a number that grows as \"sequence\"");
-    CHECK_THROWS_WITH_AS(desks.send(7, 1, 1'000'000), doctest::Contains("COMMAND_DATA: "), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(desks.send(7, 1, 1'000'000), doctest::Contains("COMMAND_DATA: "), InputError);
     CHECK(desks.taken().empty());
   }
 
@@ -288,7 +284,7 @@ TEST_SUITE("console/desk") {
     constexpr int max = distributers::ConsolePort::max_packets;
     for (int i = 1; i <= max; ++i) desks.send(7, i, i);
     CHECK_THROWS_WITH_AS(desks.send(7, max + 1, 0), "COMMAND_DATA is lost: the run has not taken what was sent before",
-                         std::invalid_argument);
+                         InputError);
     CHECK(desks.taken().size() == max);
     CHECK(desks.port->refused() == 1);
     CHECK_NOTHROW(desks.send(7, max + 1, 0));

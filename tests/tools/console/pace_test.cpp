@@ -5,6 +5,7 @@
 
 #include <thread>
 
+#include "graph/text/errors.h"
 #include "tools/commands/run/load_graph.h"
 #include "tools/console/console.h"
 #include "tools/console/options.h"
@@ -30,7 +31,7 @@ std::string refused(Pace& pace, const std::string& message) {
   try {
     obey(pace, message);
     return "nothing";
-  } catch (const std::invalid_argument& error) { return error.what(); }
+  } catch (const InputError& error) { return error.what(); }
 }
 }  // namespace
 
@@ -146,6 +147,6 @@ TEST_SUITE("console/pace") {
       CHECK_THROWS_WITH_AS(
           parse_pace(wrong),
           ("--pace: '" + wrong + "' is no number from 0.001 to 1000, nor max; write it as in 1, 0.1 or 10").c_str(),
-          std::invalid_argument);
+          InputError);
   }
 }

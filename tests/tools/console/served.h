@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "graph/text/errors.h"
 #include "tests/tools/console/client.h"
 #include "tools/console/server.h"
 
@@ -30,7 +31,7 @@ struct Served {
                                   if (message == "behind")
                                     return R"({"behind": )" + std::to_string(page.behind.count()) + "}";
                                   if (message == "large") return R"({"large": ")" + std::string(100'000, 'x') + "\"}";
-                                  if (message == "wrong") throw std::invalid_argument("expected something else");
+                                  if (message == "wrong") throw InputError("expected something else");
                                   return message == "echo" ? R"({"echo": 1})" : "";
                                 },
                                 [this](std::uint64_t page) { say(R"({"left": )" + std::to_string(page) + "}"); }};

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "graph/text/errors.h"
 #include "tests/tools/console/served.h"
 
 namespace {
@@ -247,7 +248,6 @@ TEST_SUITE("console/server") {
         Server(
             {.listen = "nowhere"}, "", [] { return std::vector<std::string>(); },
             [](const Page&, const std::string&) { return ""; }),
-        "the console can't listen on 'nowhere', which is no address; write it as in 127.0.0.1 or 0.0.0.0",
-        std::invalid_argument);
+        "the console can't listen on 'nowhere', which is no address; write it as in 127.0.0.1 or 0.0.0.0", InputError);
   }
 }

@@ -1,5 +1,6 @@
 // What a page was sent and has not said to have seen.
 #include "tools/console/unseen.h"
+#include "graph/text/errors.h"
 
 #include <doctest/doctest.h>
 
@@ -20,7 +21,7 @@ TEST_SUITE("console/unseen") {
     CHECK(unseen.has_room(Time{60s}));
     CHECK(unseen.behind(Time{60s}, &next) == 0s);
     CHECK_THROWS_WITH_AS(unseen.see(Unseen::max_kept + 11),
-                         "'messages' of seen is 1011, of 1010 that were sent and 0 seen", std::invalid_argument);
+                         "'messages' of seen is 1011, of 1010 that were sent and 0 seen", InputError);
     CHECK_NOTHROW(unseen.see(Unseen::max_kept + 10));
   }
 
@@ -28,8 +29,7 @@ TEST_SUITE("console/unseen") {
     Unseen unseen;
     for (std::size_t i = 0; i < Unseen::max_kept + 10; ++i) unseen.send(Time{1s}, Time{1s});
     for (const std::uint64_t seen : {1U, 2U, 11U}) CHECK_NOTHROW(unseen.see(seen));
-    CHECK_THROWS_WITH_AS(unseen.see(10), "'messages' of seen is 10, of 1010 that were sent and 11 seen",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(unseen.see(10), "'messages' of seen is 10, of 1010 that were sent and 11 seen", InputError);
     unseen.see(Unseen::max_kept + 10);
     CHECK(unseen.is_all_seen());
   }
@@ -64,8 +64,7 @@ TEST_SUITE("console/unseen") {
     Unseen unseen;
     for (int i = 0; i < 3; ++i) unseen.send(Time{0s}, Time{0s});
     unseen.see(2);
-    CHECK_THROWS_WITH_AS(unseen.see(1), "'messages' of seen is 1, of 3 that were sent and 2 seen",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(unseen.see(1), "'messages' of seen is 1, of 3 that were sent and 2 seen", InputError);
     CHECK_NOTHROW(unseen.see(2));
     CHECK_NOTHROW(unseen.see(3));
   }

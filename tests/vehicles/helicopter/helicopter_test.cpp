@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "graph/text/errors.h"
 #include "vehicles/air/wind.h"
 #include "vehicles/catalogue.h"
 
@@ -220,17 +221,17 @@ TEST_SUITE("vehicles/helicopter") {
     HelicopterParameters p;
     p.frame.I_z = 1;
     CHECK_THROWS_WITH_AS(Helicopter{p}, "none of its moments of inertia can exceed the sum of the other two",
-                         std::runtime_error);
+                         InputError);
     p = {};
     p.sensors.sonars = 3;
-    CHECK_THROWS_WITH_AS(Helicopter{p}, "it has one sonar or four", std::runtime_error);
+    CHECK_THROWS_WITH_AS(Helicopter{p}, "it has one sonar or four", InputError);
     p = {};
     p.battery.empty = 20;
     CHECK_THROWS_WITH_AS(Helicopter{p}, "battery.empty must not be above battery.full, and is 20 V where that is 16 V",
-                         std::runtime_error);
+                         InputError);
     p = {};
     p.battery.resistance = -1;
-    CHECK_THROWS_WITH_AS(Helicopter{p}, "its battery's resistance can't be below zero", std::runtime_error);
+    CHECK_THROWS_WITH_AS(Helicopter{p}, "its battery's resistance can't be below zero", InputError);
     for (const double direction : {0, 1}) {
       p = {};
       (direction == 0 ? p.sensors.wall_north : p.sensors.wall_east) = -12;
@@ -241,7 +242,7 @@ TEST_SUITE("vehicles/helicopter") {
                 "in the west; they are -12 m north, 12 m south, 8 m east and 12 m west of the origin"
               : "the wall in the north must lie north of that in the south, and that in the east east of that "
                 "in the west; they are 8 m north, 12 m south, -12 m east and 12 m west of the origin",
-          std::runtime_error);
+          InputError);
     }
   }
 

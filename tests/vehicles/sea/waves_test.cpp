@@ -1,4 +1,5 @@
 #include "vehicles/sea/waves.h"
+#include "graph/text/errors.h"
 
 #include <doctest/doctest.h>
 
@@ -53,8 +54,8 @@ TEST_SUITE("vehicles/waves") {
   TEST_CASE("waves that would break are refused") {
     CHECK_THROWS_WITH_AS(Waves(2, 2, 0),
                          "waves of this sea.wave_height and sea.wave_period would break; they are steeper than 1 in 7",
-                         std::runtime_error);
-    CHECK_THROWS_WITH_AS(Waves(-1, 5, 0), "sea.wave_height must not be below zero", std::runtime_error);
-    CHECK_THROWS_WITH_AS(Waves(1, 0, 0), "sea.wave_period must be above zero", std::runtime_error);
+                         jarol::InputError);
+    CHECK_THROWS_WITH_AS(Waves(-1, 5, 0), "sea.wave_height must not be below zero", jarol::InputError);
+    CHECK_THROWS_WITH_AS(Waves(1, 0, 0), "sea.wave_period must be above zero", jarol::InputError);
   }
 }

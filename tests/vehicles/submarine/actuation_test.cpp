@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "graph/text/errors.h"
 #include "vehicles/submarine/power.h"
 
 namespace {
@@ -89,9 +90,9 @@ TEST_SUITE("vehicles/submarine_actuation") {
   TEST_CASE("a battery that no submarine can have is an error") {
     CHECK_THROWS_WITH_AS(Power({.empty = 30}),
                          "submarine: power.empty must not be above power.full, and is 30 V where that is 25.2 V",
-                         std::runtime_error);
-    CHECK_THROWS_WITH_AS(Power({.capacity = 0}), "submarine: power.capacity must be above zero", std::runtime_error);
-    CHECK_THROWS_WITH_AS(Power({.resistance = -1}), "submarine: power.resistance is below zero", std::runtime_error);
+                         jarol::InputError);
+    CHECK_THROWS_WITH_AS(Power({.capacity = 0}), "submarine: power.capacity must be above zero", jarol::InputError);
+    CHECK_THROWS_WITH_AS(Power({.resistance = -1}), "submarine: power.resistance is below zero", jarol::InputError);
     CHECK(Power({.full = 24, .empty = 24}).voltage() == 24);  // one that does not sag
   }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "graph/text/errors.h"
 #include "vehicles/submarine/submarine.h"
 
 namespace {
@@ -87,6 +88,6 @@ TEST_SUITE("vehicles/rigid_plant") {
     parameters.dynamics = Dynamics::rigid;
     CHECK_THROWS_WITH_AS(Submarine{parameters},
                          "submarine: with vsim_compatible it has dynamics of its own; leave dynamics out",
-                         std::runtime_error);
+                         jarol::InputError);
   }
 }

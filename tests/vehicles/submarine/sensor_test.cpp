@@ -1,4 +1,5 @@
 #include "vehicles/submarine/sensor.h"
+#include "graph/text/errors.h"
 
 #include <doctest/doctest.h>
 
@@ -138,19 +139,19 @@ TEST_SUITE("vehicles/sensor") {
   TEST_CASE("period and delay are steps of the vehicle") {
     CHECK_THROWS_WITH_AS(reported(exact(15ms), 1),
                          "submarine: sensors.depth.period must be a multiple of the vehicle's steps of 10ms",
-                         std::runtime_error);
+                         jarol::InputError);
     CHECK_THROWS_WITH_AS(reported(exact(0ms), 1), "submarine: sensors.depth.period must be above zero",
-                         std::runtime_error);
+                         jarol::InputError);
     Parameters parameters;
     parameters.delay = 5ms;
     CHECK_THROWS_WITH_AS(reported(parameters, 1),
                          "submarine: sensors.depth.delay must be a multiple of the vehicle's steps of 10ms",
-                         std::runtime_error);
+                         jarol::InputError);
     parameters.delay = 60010ms;
     CHECK_THROWS_WITH_AS(reported(parameters, 1), "submarine: sensors.depth.delay is longer than a minute",
-                         std::runtime_error);
+                         jarol::InputError);
     parameters.delay = {};
     parameters.noise = -1;
-    CHECK_THROWS_WITH_AS(reported(parameters, 1), "submarine: sensors.depth.noise is below zero", std::runtime_error);
+    CHECK_THROWS_WITH_AS(reported(parameters, 1), "submarine: sensors.depth.noise is below zero", jarol::InputError);
   }
 }

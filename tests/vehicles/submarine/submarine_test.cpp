@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "distributers/messages/imc.h"
+#include "graph/text/errors.h"
 #include "vehicles/catalogue.h"
 
 namespace {
@@ -52,8 +53,7 @@ TEST_SUITE("vehicles/submarine") {
     SubmarineParameters parameters;
     parameters.start.depth = parameters.sea.floor;
     CHECK_THROWS_WITH_AS(Submarine(parameters, 0),
-                         "submarine: start.depth must lie above sea.floor, and is 50 m where that is 50 m",
-                         std::runtime_error);
+                         "submarine: start.depth must lie above sea.floor, and is 50 m where that is 50 m", InputError);
     parameters.start.depth = parameters.sea.floor - 0.3;
     CHECK(Submarine(parameters, 0).mishap() == std::nullopt);
   }
@@ -63,7 +63,7 @@ TEST_SUITE("vehicles/submarine") {
     parameters.hull.length = 0.1;
     CHECK_THROWS_WITH_AS(Submarine(parameters, 0),
                          "submarine: hull.diameter must not be above hull.length, and is 0.15 m where that is 0.1 m",
-                         std::runtime_error);
+                         InputError);
   }
 
   TEST_CASE("positive angles on fins 0 and 3 turn to port, negative ones to starboard") {
@@ -263,8 +263,7 @@ TEST_SUITE("vehicles/submarine") {
     parameters.vsim_compatible = true;
     parameters.sea.wave_height = 0.3;
     CHECK_THROWS_WITH_AS(Submarine{parameters},
-                         "submarine: with vsim_compatible there are no waves; sea.wave_height has to be 0",
-                         std::runtime_error);
+                         "submarine: with vsim_compatible there are no waves; sea.wave_height has to be 0", InputError);
   }
 
   TEST_CASE("a current carries it along and is reported, velocities stay those through the water") {

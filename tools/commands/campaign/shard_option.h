@@ -2,10 +2,10 @@
 #pragma once
 
 #include <charconv>
-#include <stdexcept>
 #include <string>
 
 #include "distributers/campaign/run_all.h"
+#include "graph/text/errors.h"
 
 namespace jarol::tools {
 
@@ -18,7 +18,7 @@ inline campaign::Shard shard_of(const std::string& text) {
   const auto second = first.ptr == end ? first : std::from_chars(first.ptr + 1, end, shard.count);
   if (first.ec != std::errc() || second.ec != std::errc() || second.ptr != end || *first.ptr != '/' ||
       shard.index < 1 || shard.index > shard.count)
-    throw std::invalid_argument("--shard: '" + text + "' is no part of a whole; write it as 2/8, the second of eight");
+    throw InputError("--shard: '" + text + "' is no part of a whole; write it as 2/8, the second of eight");
   --shard.index;
   return shard;
 }

@@ -5,7 +5,7 @@
 
 #include "graph/analysis/time_line.h"
 #include "graph/language/quantities.h"
-#include "graph/text/escape.h"
+#include "tools/drawing/svg.h"
 
 namespace jarol::tools {
 
@@ -72,29 +72,37 @@ class Chart {
  public:
   Chart(const Graph& graph, const Window& window, const std::string& title)
       : graph_(graph), window_(window), height_(top + row * static_cast<double>(window.tasks.size()) + below) {
-    text_ = fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\" "
-        "font-size=\"13\">\n<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"white\"/>\n"
-        "<text x=\"{2:.0f}\" y=\"24\">{3}</text>\n",
-        left + width + 20, height_, left, xml_text(title));
-    for (std::size_t i = 0; i < window.tasks.size(); ++i)
-      text_ += fmt::format("<text x=\"{:.0f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>\n", left - 8, y(i) + 18,
-                           xml_text(graph_.tasks[window.tasks[i]].name));
+    const std::string across = fixed(left + width + 20, 0), down = fixed(height_, 0);
+    svg_.begin("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
+                       {"viewBox", "0 0 " + across + " " + down},
+                       {"font-family", "sans-serif"},
+                       {"font-size", "13"}});
+    svg_.line_end().element("rect", {{"width", across}, {"height", down}, {"fill", "white"}}).line_end();
+    svg_.element("text", {{"x", fixed(left, 0)}, {"y", "24"}}, title).line_end();
+    for (std::size_t i = 0; i < window.tasks.size(); ++i) {
+      svg_.element("text", {{"x", fixed(left - 8, 0)}, {"y", fixed(y(i) + 18, 1)}, {"text-anchor", "end"}},
+                   graph_.tasks[window.tasks[i]].name);
+      svg_.line_end();
+    }
   }
 
   double bottom() const { return height_ - below; }
 
   void box(std::size_t at, std::int64_t begin, std::int64_t end, const char* colour) {
-    if (end > begin)
-      text_ += fmt::format("<rect x=\"{:.2f}\" y=\"{:.1f}\" width=\"{:.2f}\" height=\"{}\" fill=\"{}\"/>\n", x(begin),
-                           y(at) + 4, std::max(0.5, x(end) - x(begin)), bar, colour);
+    if (end <= begin) return;
+    svg_.element("rect", {{"x", fixed(x(begin), 2)},
+                          {"y", fixed(y(at) + 4, 1)},
+                          {"width", fixed(std::max(0.5, x(end) - x(begin)), 2)},
+                          {"height", fixed(bar, 0)},
+                          {"fill", colour}});
+    svg_.line_end();
   }
 
   // across all rows, with a word below
   void mark(std::int64_t at, const std::string& what, const char* colour) {
     line(x(at), top, bottom(), colour);
-    text_ +=
-        fmt::format("<text x=\"{:.2f}\" y=\"{:.0f}\" text-anchor=\"middle\">{}</text>\n", x(at), bottom() + 16, what);
+    svg_.element("text", {{"x", fixed(x(at), 2)}, {"y", fixed(bottom() + 16, 0)}, {"text-anchor", "middle"}}, what);
+    svg_.line_end();
   }
 
   // within one row
@@ -102,7 +110,7 @@ class Chart {
     line(x(instant), y(at) + 1, y(at) + bar + 7, colour);
   }
 
-  std::string text() const { return text_ + "</svg>\n"; }
+  std::string text() { return svg_.end().line_end().text(); }
 
  private:
   double x(std::int64_t t) const {
@@ -111,8 +119,10 @@ class Chart {
   }
   static double y(std::size_t at) { return top + row * static_cast<double>(at); }
   void line(double at, double from, double to, const char* colour) {
-    text_ += fmt::format("<line x1=\"{0:.2f}\" y1=\"{1:.0f}\" x2=\"{0:.2f}\" y2=\"{2:.0f}\" stroke=\"{3}\"/>\n", at,
-                         from, to, colour);
+    svg_.element(
+        "line",
+        {{"x1", fixed(at, 2)}, {"y1", fixed(from, 0)}, {"x2", fixed(at, 2)}, {"y2", fixed(to, 0)}, {"stroke", colour}});
+    svg_.line_end();
   }
 
   static constexpr double left = 120, width = 760, row = 28, top = 50, below = 40, bar = 20;
@@ -120,7 +130,7 @@ class Chart {
   const Graph& graph_;
   const Window& window_;
   double height_;
-  std::string text_;
+  Svg svg_;
 };
 
 constexpr const char *on_time = "#4477aa", *too_late = "#cc3311", *release = "#228833";

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <iostream>
-#include <stdexcept>
 
 #include "graph/language/quantities.h"
 #include "graph/model/with_wcets.h"
@@ -51,7 +50,7 @@ void write_wcets(const std::string& file, const std::shared_ptr<const Source>& s
   }
   const std::string edited = with_wcets(source->text, in_file.spec, *in_file.graph, wcets);
   if (read_source(file)->text != source->text)
-    throw std::invalid_argument("'" + file + "' was changed while it was measured; nothing is written, measure again");
+    throw InputError("'" + file + "' was changed while it was measured; nothing is written, measure again");
   load_graph(std::make_shared<Source>(Source{file, edited}), overrides);
   AtomicFile whole(file, Replaces::all);
   whole.write(edited);

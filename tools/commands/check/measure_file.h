@@ -21,7 +21,7 @@ struct MeasureOptions {
 /// that is asked for, writes into the file, which is left as it is if it would not load afterwards: per task what 99.9
 /// % of its activations stayed below, and the longest disturbance that any task met, but no less than 100 us, with the
 /// margin on top. A `wcet` that is stated stays if it is longer than what was met, unless it may be lowered. Throws
-/// SpecError, or std::invalid_argument for what can't be measured or edited; what was measured is shown by then.
+/// SpecError, or InputError for what can't be measured or edited; what was measured is shown by then.
 /// Returns what was measured.
 Measurement measure_file(const std::string& file, const Overrides& overrides, const MeasureOptions& options);
 

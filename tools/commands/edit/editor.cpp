@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "graph/plugins/plugins.h"
+#include "graph/text/errors.h"
 #include "tools/commands/edit/catalogue.h"
 #include "tools/commands/edit/verdict.h"
 #include "tools/commands/run/known_with.h"
@@ -26,7 +27,7 @@ std::string dump(const Json& json) { return json.dump(-1, ' ', true, Json::error
 
 std::string text_in(const nlohmann::json& json, const char* key) {
   const auto found = json.value(key, nlohmann::json(""));
-  if (!found.is_string()) throw std::invalid_argument(std::string("'") + key + "' is no text");
+  if (!found.is_string()) throw InputError(std::string("'") + key + "' is no text");
   return found;
 }
 
@@ -94,7 +95,7 @@ std::string Editor::answer(std::uint64_t page, const std::string& message) {
     try {
       const Version version = file_.read();
       return dump({{"opened", {{"text", version.text}, {"hash", version.hash}}}});
-    } catch (const std::runtime_error& wrong) { throw std::invalid_argument(wrong.what()); }
+    } catch (const std::runtime_error& wrong) { throw InputError(wrong.what()); }
   }
   if (what == "judge") return judge(page, json), "";
   if (what == "save") return save(text_in(json, "text"), text_in(json, "over"));
@@ -107,15 +108,15 @@ std::string Editor::answer(std::uint64_t page, const std::string& message) {
     const std::lock_guard lock(mutex_);
     return trial_state_;
   }
-  throw std::invalid_argument("there is no '" + console::shortened(what) +
-                              "' to do; there are: open, judge, save, run, stop, trial");
+  throw InputError("there is no '" + console::shortened(what) +
+                   "' to do; there are: open, judge, save, run, stop, trial");
 }
 
 // Verdict, drawing and suggestions come when they are there, each by a thread of its own; those that help a graph that
 // does not hold take longest.
 void Editor::judge(std::uint64_t page, const nlohmann::json& json) {
   const auto id = json.value("id", nlohmann::json(0));
-  if (!id.is_number_unsigned()) throw std::invalid_argument("'id' is no whole number");
+  if (!id.is_number_unsigned()) throw InputError("'id' is no whole number");
   EditedText text{std::make_shared<Source>(Source{options_.file, text_in(json, "text")}), {}};
   text.overrides.profile = text_in(json, "profile");
   const std::string refused =
@@ -163,7 +164,7 @@ void Editor::run(const nlohmann::json& json) {
   const std::string refused =
       options_.no_plugins.empty() ? refused_plugins({options_.file, trial.text}, plugins_) : options_.no_plugins;
   if (!refused.empty() && !plugins_of(std::make_shared<Source>(Source{options_.file, trial.text})).empty())
-    throw std::invalid_argument("the text names plugins: " + refused);
+    throw InputError("the text names plugins: " + refused);
   const auto say = [this](Json state) {
     const std::lock_guard lock(mutex_);
     say_of_trial(dump({{"trial", std::move(state)}}));

@@ -8,12 +8,12 @@
 #include <cerrno>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <system_error>
 
 #include "distributers/links/descriptor.h"
 #include "graph/language/read_source.h"
 #include "graph/language/yaml.h"
+#include "graph/text/errors.h"
 #include "runtime/files/atomic_file.h"
 #include "runtime/files/output_lock.h"
 
@@ -37,11 +37,11 @@ void require_writable(const std::string& path) {
   if (::stat(path.c_str(), &there) != 0) return;
   // whoever reads a FIFO would be waited for
   if (!S_ISREG(there.st_mode))
-    throw std::runtime_error("can't write '" + path + "': there is no regular file any more; move away what is there");
+    throw InputError("can't write '" + path + "': there is no regular file any more; move away what is there");
   constexpr mode_t to_write = S_IWUSR | S_IWGRP | S_IWOTH;
   if ((there.st_mode & to_write) == 0 || ::access(path.c_str(), W_OK) != 0)
-    throw std::runtime_error("can't write '" + path +
-                             "': the file is read-only; allow that it is written, as by chmod u+w, and save again");
+    throw InputError("can't write '" + path +
+                     "': the file is read-only; allow that it is written, as by chmod u+w, and save again");
 }
 
 // By a hard link, which another file in its place would cut.

@@ -25,7 +25,7 @@ class GraphFile {
 
   /// Writes the text, if what is on the disk is the version of that hash; else it is left as it is, and returned: a
   /// file that is gone without text and hash. The file is whole at any time, but for one that has other names by hard
-  /// links, which is written in place. Throws std::runtime_error where it can't be written, is read-only, or no file.
+  /// links, which is written in place. Throws InputError where it can't be written, is read-only, or no file.
   std::optional<Version> write(const std::string& text, const std::string& over) const;
 
  private:

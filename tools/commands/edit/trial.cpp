@@ -19,6 +19,7 @@
 
 #include "graph/language/load.h"
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 
 namespace jarol::tools::edit {
 namespace {
@@ -40,7 +41,7 @@ Descriptor file_in_memory(const std::string& text) {
   Descriptor file(memfd_create("jarol", MFD_CLOEXEC));
   for (std::size_t at = 0; at < text.size();) {
     const ssize_t written = ::write(file.get(), text.data() + at, text.size() - at);
-    if (written <= 0) throw std::runtime_error(std::string("no room for the text: ") + std::strerror(errno));
+    if (written <= 0) throw Unfinished(std::string("no room for the text: ") + std::strerror(errno));
     at += static_cast<std::size_t>(written);
   }
   ::lseek(file.get(), 0, SEEK_SET);
@@ -67,7 +68,7 @@ class Child {
   Child(const std::string& program, const TrialOptions& options) {
     const Descriptor in = file_in_memory(options.text);
     int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::string("no pipe: ") + std::strerror(errno));
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw Unfinished(std::string("no pipe: ") + std::strerror(errno));
     out_ = Descriptor(ends[0]);
     const Descriptor write_end(ends[1]);
     std::vector<std::string> words = words_of(options);
@@ -77,7 +78,7 @@ class Child {
     const std::filesystem::path parent = std::filesystem::path(options.file).parent_path();
     const std::string folder = parent.empty() ? "." : parent.string();
     id_ = ::fork();
-    if (id_ < 0) throw std::runtime_error(std::string("no process: ") + std::strerror(errno));
+    if (id_ < 0) throw Unfinished(std::string("no process: ") + std::strerror(errno));
     if (id_ == 0) become(program.c_str(), pointers.data(), folder.c_str(), in.get(), write_end.get());
   }
   ~Child() {
@@ -107,9 +108,9 @@ class Child {
 void require_sound(const TrialOptions& options) {
   Duration length{};
   if (const std::string wrong = options.length.empty() ? "" : parse_duration(options.length, length); !wrong.empty())
-    throw std::invalid_argument("the length '" + options.length + "' " + wrong);
+    throw InputError("the length '" + options.length + "' " + wrong);
   if (!options.profile.empty() && !is_name(options.profile))
-    throw std::invalid_argument("'" + options.profile + "' is no name of a profile");
+    throw InputError("'" + options.profile + "' is no name of a profile");
 }
 
 Trial::Trial(const std::string& program, const TrialOptions& options, std::function<void(const std::string& url)> page,

@@ -27,7 +27,7 @@ struct TrialEnd {
   std::string text;    // all that it printed, the last 256 kB
 };
 
-/// Throws std::invalid_argument for a length or profile that is none.
+/// Throws InputError for a length or profile that is none.
 void require_sound(const TrialOptions& options);
 
 class Trial {

@@ -3,11 +3,11 @@
 #include <iostream>
 #include <map>
 #include <memory>
-#include <stdexcept>
 #include <system_error>
 
 #include "graph/language/problems.h"
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 #include "graph/text/escape.h"
 #include "runtime/files/atomic_file.h"
 #include "runtime/record/instants.h"
@@ -97,8 +97,8 @@ void require_no_others(const std::string& folder, const std::map<std::string, st
       others.push_back(entry.path().filename().string());
   std::sort(others.begin(), others.end());
   if (!others.empty())
-    throw std::invalid_argument("--by-rate: the folder '" + folder + "' has tables of something else: " +
-                                list_of(others) + "; choose another folder, or remove them");
+    throw InputError("--by-rate: the folder '" + folder + "' has tables of something else: " + list_of(others) +
+                     "; choose another folder, or remove them");
 }
 
 void make_folder(const std::string& path) {
@@ -120,9 +120,9 @@ int log_csv(const LogOptions& options) {
   for (const auto& [id, topic] : recording.topics())
     if (wanted[id]) groups[options.by_rate.empty() ? "" : rate_of(topic)].push_back(&topic);
   if (groups.empty())
-    throw std::invalid_argument("'" + options.file +
-                                "' has no published values; record them by --record, or name other "
-                                "topics by --topic");
+    throw InputError("'" + options.file +
+                     "' has no published values; record them by --record, or name other "
+                     "topics by --topic");
   struct Out {
     Table table;
     std::unique_ptr<AtomicFile> file{};

@@ -5,10 +5,10 @@
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "distributers/session/replay_start.h"
 #include "graph/language/problems.h"
+#include "graph/text/errors.h"
 #include "graph/text/escape.h"
 #include "graph/text/shell_word.h"
 #include "runtime/files/atomic_file.h"
@@ -153,8 +153,8 @@ int log_report(const LogOptions& options) {
   RecordedRun run(options.file);
   const int exit_code = note_break(run.recording(), options.file);
   if (run.header().begin > Duration{})
-    throw std::invalid_argument("'" + options.file + "' is of a run that went on from " +
-                                seconds_text(run.header().begin) + " s; jarol log report shows whole runs");
+    throw InputError("'" + options.file + "' is of a run that went on from " + seconds_text(run.header().begin) +
+                     " s; jarol log report shows whole runs");
   const std::string out =
       options.out.empty() ? std::filesystem::path(options.file).replace_extension(".html").string() : options.out;
   require_apart({{"FILE", options.file}, {"GRAPH", options.other}}, {{"--out", out}});

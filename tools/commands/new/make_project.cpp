@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <system_error>
 
+#include "graph/text/errors.h"
 #include "graph/text/escape.h"
 #include "tools/commands/new/project_files.h"
 
@@ -29,14 +29,13 @@ std::string name_of(const fs::path& place) {
       !name.empty() && name.size() <= 40 && is_small(name[0]) &&
       std::all_of(name.begin(), name.end(), [&](char c) { return is_small(c) || (c >= '0' && c <= '9') || c == '_'; });
   if (!good)
-    throw std::invalid_argument("'" + printable(name) +
-                                "' can't name a project; it needs small letters, digits and _, up to 40, and a letter "
-                                "first");
+    throw InputError("'" + printable(name) +
+                     "' can't name a project; it needs small letters, digits and _, up to 40, and a letter "
+                     "first");
   if (std::find(reserved.begin(), reserved.end(), name) != reserved.end())
-    throw std::invalid_argument("'" + name +
-                                "' can't name a project, as it names a target of every build; choose another");
+    throw InputError("'" + name + "' can't name a project, as it names a target of every build; choose another");
   if (name == "null")  // the only one that its graph could not have as its name
-    throw std::invalid_argument("'null' can't name a project, as that is nothing in YAML; choose another");
+    throw InputError("'null' can't name a project, as that is nothing in YAML; choose another");
   return name;
 }
 
@@ -46,15 +45,14 @@ void require_free(const fs::path& place, const std::string& given) {
   const fs::file_status status = fs::status(place, error);
   const std::string named = "'" + printable(given) + "'";
   if (fs::exists(status)) {
-    if (!fs::is_directory(status)) throw std::invalid_argument(named + " is there, and no folder; give another name");
+    if (!fs::is_directory(status)) throw InputError(named + " is there, and no folder; give another name");
     const bool empty = fs::is_empty(place, error);
-    if (error) throw std::invalid_argument("can't look into " + named + ": " + error.message());
-    if (!empty) throw std::invalid_argument(named + " is there, and not empty; give another name, or remove it");
+    if (error) throw InputError("can't look into " + named + ": " + error.message());
+    if (!empty) throw InputError(named + " is there, and not empty; give another name, or remove it");
   } else if (fs::symlink_status(place, error).type() == fs::file_type::symlink) {
-    throw std::invalid_argument(named + " is a link to nothing; give another name, or remove it");
+    throw InputError(named + " is a link to nothing; give another name, or remove it");
   } else if (!fs::is_directory(place.parent_path(), error)) {
-    throw std::invalid_argument("there is no folder '" + printable(place.parent_path().string()) + "' to make " +
-                                named + " in");
+    throw InputError("there is no folder '" + printable(place.parent_path().string()) + "' to make " + named + " in");
   }
 }
 

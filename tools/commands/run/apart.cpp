@@ -1,8 +1,8 @@
 #include "tools/commands/run/apart.h"
 
 #include <filesystem>
-#include <stdexcept>
 
+#include "graph/text/errors.h"
 #include "runtime/files/atomic_file.h"
 
 namespace jarol::tools {
@@ -29,20 +29,20 @@ void require_apart(const std::vector<NamedFile>& inputs, const std::vector<Named
     // standard input is another file than standard output
     for (const NamedFile& input : inputs)
       if (!input.path.empty() && input.path != "-" && are_same(outputs[i].path, input.path))
-        throw std::invalid_argument(outputs[i].option + " '" + outputs[i].path + "' would replace what " +
-                                    input.option + " names; choose another file");
+        throw InputError(outputs[i].option + " '" + outputs[i].path + "' would replace what " + input.option +
+                         " names; choose another file");
     for (std::size_t k = 0; k < i; ++k)
       if (!outputs[k].path.empty() && are_same(outputs[i].path, outputs[k].path))
-        throw std::invalid_argument(outputs[k].option + " and " + outputs[i].option + " both name '" + outputs[i].path +
-                                    "'; choose another file for one of them");
+        throw InputError(outputs[k].option + " and " + outputs[i].option + " both name '" + outputs[i].path +
+                         "'; choose another file for one of them");
   }
 }
 
 void require_extension(const NamedFile& output, const std::string& extension, const std::string& what) {
   const fs::path path(output.path);
   if (path.extension().empty() || path.extension() == extension || path.string().starts_with("/dev/")) return;
-  throw std::invalid_argument(output.option + ": '" + output.path + "' would hold " + what + "; name it " +
-                              fs::path(path).replace_extension(extension).string());
+  throw InputError(output.option + ": '" + output.path + "' would hold " + what + "; name it " +
+                   fs::path(path).replace_extension(extension).string());
 }
 
 }  // namespace jarol::tools

@@ -12,10 +12,10 @@ struct NamedFile {
   std::string path;
 };
 
-/// Throws std::invalid_argument where an output would replace an input or another output.
+/// Throws InputError where an output would replace an input or another output.
 void require_apart(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
 
-/// Throws std::invalid_argument where the name of an output promises something else than what it will hold, as "p.png"
+/// Throws InputError where the name of an output promises something else than what it will hold, as "p.png"
 /// for an SVG picture; one without an extension promises nothing. `what`: "an SVG picture".
 void require_extension(const NamedFile& output, const std::string& extension, const std::string& what);
 

@@ -1,6 +1,6 @@
 #include "tools/commands/run/at_console.h"
 
-#include <stdexcept>
+#include "graph/text/errors.h"
 
 namespace jarol::tools {
 
@@ -17,8 +17,8 @@ std::vector<console::DeskOperator> operators_at_console(const Loaded& loaded) {
 void require_console(const RunArguments& options, const Loaded& loaded) {
   const auto operators = operators_at_console(loaded);
   if (!operators.empty() && !options.console.wanted())
-    throw std::invalid_argument("distributer '" + operators.front().name +
-                                "' has its operator at the console; run it with --console");
+    throw InputError("distributer '" + operators.front().name +
+                     "' has its operator at the console; run it with --console");
 }
 
 }  // namespace jarol::tools

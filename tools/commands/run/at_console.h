@@ -12,7 +12,7 @@ namespace jarol::tools {
 /// Those whose link is the console.
 std::vector<console::DeskOperator> operators_at_console(const Loaded& loaded);
 
-/// Throws std::invalid_argument where there are any, and no console.
+/// Throws InputError where there are any, and no console.
 void require_console(const RunArguments& options, const Loaded& loaded);
 
 }  // namespace jarol::tools

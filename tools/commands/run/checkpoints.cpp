@@ -1,8 +1,8 @@
 #include "tools/commands/run/checkpoints.h"
 
 #include <algorithm>
-#include <stdexcept>
 
+#include "graph/text/errors.h"
 #include "runtime/record/recording_format.h"
 #include "tools/report/command_line.h"
 #include "tools/report/duration_option.h"
@@ -34,10 +34,10 @@ std::vector<Save> parse_saves(const std::vector<std::string>& words) {
     Save save;
     const std::size_t end = word.find('=');
     if (end == std::string::npos || end + 1 == word.size())
-      throw std::invalid_argument("--save: '" + word + "' names no file; write it as in 30s=FILE");
+      throw InputError("--save: '" + word + "' names no file; write it as in 30s=FILE");
     save.at = duration_of("--save", word.substr(0, end));
     save.file = word.substr(end + 1);
-    if (save.file == "-") throw std::invalid_argument("--save: '-' is no file; --resume reads one by its name");
+    if (save.file == "-") throw InputError("--save: '-' is no file; --resume reads one by its name");
     saves.push_back(std::move(save));
   }
   return saves;

@@ -27,7 +27,7 @@ struct Save {
   std::string file;
 };
 
-/// Throws std::invalid_argument.
+/// Throws InputError.
 std::vector<Save> parse_saves(const std::vector<std::string>& words);
 
 /// What a run goes on from; its profile, what it set, but for plugins, and its seed come before what is given here.

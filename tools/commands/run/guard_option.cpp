@@ -9,9 +9,9 @@
 #include <exception>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
 #include <system_error>
 
+#include "graph/text/errors.h"
 #include "graph/text/escape.h"
 #include "tools/report/command_line.h"
 
@@ -25,8 +25,7 @@ void add_guard_option(Command& command, bool& guard) {
 
 void require_guard_effect(const Command& command, bool guard, bool virtual_clock) {
   if (!guard) return;
-  if (!virtual_clock)
-    throw std::invalid_argument("--guard belongs to the virtual clock: pages are protected for all threads");
+  if (!virtual_clock) throw InputError("--guard belongs to the virtual clock: pages are protected for all threads");
   command.refuse({"--workers"},
                  "does not go with --guard: pages are protected for all threads, and one task runs at a time");
   command.refuse({"--console"}, "does not go with --guard: the page's server reads into memory while tasks run");
@@ -43,21 +42,19 @@ void look_up_at_once() {
   for (std::size_t at = 0; at < words.size(); at = words.find('\0', at) + 1) arguments.push_back(&words[at]);
   arguments.push_back(nullptr);
   ::execv("/proc/self/exe", arguments.data());
-  throw std::runtime_error("--guard: the program can't be begun again: " + std::generic_category().message(errno));
+  throw Unfinished("--guard: the program can't be begun again: " + std::generic_category().message(errno));
 }
 
 std::unique_ptr<TaskGuard> make_guard(bool wanted, const Graph& graph, const std::vector<ExternalSystem*>& channels) {
   if (!wanted) return nullptr;
   for (std::size_t i = 0; i < channels.size(); ++i)
     if (channels[i]->outlives_run())
-      throw std::invalid_argument("--guard: distributer '" + printable(graph.distributers[i].name) +
-                                  "' has a link to another process, which reads into memory while tasks run; state a "
-                                  "link to a vehicle in this one");
+      throw InputError("--guard: distributer '" + printable(graph.distributers[i].name) +
+                       "' has a link to another process, which reads into memory while tasks run; state a "
+                       "link to a vehicle in this one");
   try {
     return std::make_unique<TaskGuard>();
-  } catch (const std::runtime_error& refused) {
-    throw std::invalid_argument(std::string("--guard: ") + refused.what());
-  }
+  } catch (const Unfinished& refused) { throw InputError(std::string("--guard: ") + refused.what()); }
 }
 
 }  // namespace jarol::tools

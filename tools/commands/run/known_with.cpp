@@ -1,9 +1,9 @@
 #include "tools/commands/run/known_with.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "graph/plugins/plugins.h"
+#include "graph/text/errors.h"
 #include "tools/library/built_in.h"
 
 namespace jarol::tools {
@@ -13,7 +13,7 @@ distributers::Registries known_with(const std::vector<std::string>& plugins) {
   for (const std::string& plugin : plugins) {
     const std::string wrong =
         load_plugin(plugin, parts, [](const Extension& extension) { return distributers::has(built_in(), extension); });
-    if (!wrong.empty()) throw std::invalid_argument(wrong);
+    if (!wrong.empty()) throw InputError(wrong);
   }
   return distributers::with_plugins(built_in(), std::move(parts));
 }

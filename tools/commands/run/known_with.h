@@ -9,7 +9,7 @@
 
 namespace jarol::tools {
 
-/// What is built in, and what these shared libraries bring. Throws std::invalid_argument.
+/// What is built in, and what these shared libraries bring. Throws InputError.
 distributers::Registries known_with(const std::vector<std::string>& plugins);
 
 /// The message sets of the tree, and those that known distributers and vehicles speak; of a name the first.

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <iostream>
 #include <sstream>
-#include <stdexcept>
 
 #include "graph/language/load.h"
 #include "graph/language/problems.h"
+#include "graph/text/errors.h"
 #include "tools/report/tracking.h"
 
 namespace jarol::tools {
@@ -144,7 +144,7 @@ std::vector<Panel> panels_named(const std::string& patterns, const std::vector<O
   std::istringstream words(patterns);
   for (std::string word; std::getline(words, word, ',');) {
     if (word.empty())
-      throw std::invalid_argument("--signals: '" + patterns + "' has an empty name; write them as in depth.*,fins.*");
+      throw InputError("--signals: '" + patterns + "' has an empty name; write them as in depth.*,fins.*");
     bool fits = false;
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (fnmatch(word.c_str(), all[i].title.c_str(), 0) != 0) continue;
@@ -155,13 +155,13 @@ std::vector<Panel> panels_named(const std::string& patterns, const std::vector<O
     if (fits) continue;
     std::vector<std::string> names;
     for (const Panel& panel : all) names.push_back(panel.title);
-    throw std::invalid_argument("--signals: nothing that is published has the name '" + word + "'" +
-                                did_you_mean(word, names) + "; there are: " + list_of(names));
+    throw InputError("--signals: nothing that is published has the name '" + word + "'" + did_you_mean(word, names) +
+                     "; there are: " + list_of(names));
   }
   if (panels.size() > max_panels)
-    throw std::invalid_argument("--signals: '" + patterns + "' names " + std::to_string(panels.size()) +
-                                " fields, more than the " + std::to_string(max_panels) +
-                                " that a picture has room for; name fewer");
+    throw InputError("--signals: '" + patterns + "' names " + std::to_string(panels.size()) +
+                     " fields, more than the " + std::to_string(max_panels) +
+                     " that a picture has room for; name fewer");
   return panels;
 }
 

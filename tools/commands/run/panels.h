@@ -25,7 +25,7 @@ struct Picture {
 /// type of what is known of its vehicle, or null.
 Picture picture_of(const Graph& graph, const std::vector<Output>& outputs, const std::vector<const Type*>& truths);
 
-/// Those whose names fit one of the patterns, each once. Throws std::invalid_argument where a pattern fits none, or all
+/// Those whose names fit one of the patterns, each once. Throws InputError where a pattern fits none, or all
 /// together fit more than there is room for.
 std::vector<Panel> panels_named(const std::string& patterns, const std::vector<Output>& outputs);
 

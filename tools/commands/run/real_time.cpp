@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <thread>
 
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 #include "tools/report/command_line.h"
 #include "tools/report/exit_code.h"
 #include "tools/report/value_json.h"
@@ -18,20 +18,20 @@ namespace {
 void add_cpus(const std::string& part, const std::string& list, std::vector<int>& cpus) {
   const auto number = [&](const std::string& digits) {
     if (digits.empty() || digits.size() > 4 || digits.find_first_not_of("0123456789") != std::string::npos)
-      throw std::invalid_argument("--cpus: '" + list + "' is not a list of CPUs as in 0,2-3");
+      throw InputError("--cpus: '" + list + "' is not a list of CPUs as in 0,2-3");
     return std::stoi(digits);
   };
   const std::size_t dash = part.find('-');
   const int first = number(part.substr(0, dash));
   const int last = dash == std::string::npos ? first : number(part.substr(dash + 1));
   const int count = static_cast<int>(std::thread::hardware_concurrency());
-  if (last < first) throw std::invalid_argument("--cpus: '" + part + "' ends before it begins");
+  if (last < first) throw InputError("--cpus: '" + part + "' ends before it begins");
   if (last >= count)
-    throw std::invalid_argument("--cpus: there is no CPU " + std::to_string(last) + "; this machine has 0 to " +
-                                std::to_string(count - 1));
+    throw InputError("--cpus: there is no CPU " + std::to_string(last) + "; this machine has 0 to " +
+                     std::to_string(count - 1));
   for (int cpu = first; cpu <= last; ++cpu) {
     if (std::find(cpus.begin(), cpus.end(), cpu) != cpus.end())
-      throw std::invalid_argument("--cpus: '" + list + "' names CPU " + std::to_string(cpu) + " twice");
+      throw InputError("--cpus: '" + list + "' names CPU " + std::to_string(cpu) + " twice");
     cpus.push_back(cpu);
   }
 }

@@ -3,7 +3,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -28,7 +27,7 @@ struct RealTimeArguments {
 
 void add_real_time_options(Command& command, RealTimeArguments& arguments);
 
-/// Throws std::invalid_argument for a bad list of CPUs.
+/// Throws InputError for a bad list of CPUs.
 RealTimeOptions options_of(const RealTimeArguments& arguments);
 
 /// How messages of runs name what the command line has.

@@ -1,8 +1,7 @@
 #include "tools/commands/run/record_options.h"
 
-#include <stdexcept>
-
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 #include "graph/text/escape.h"
 #include "tools/report/command_line.h"
 #include "tools/report/duration_option.h"
@@ -21,8 +20,8 @@ std::uint64_t split_of(const std::string& text) {
   if (text.empty()) return 0;
   std::int64_t bytes = 0;
   if (const std::string wrong = parse_bytes(text, bytes); !wrong.empty())
-    throw std::invalid_argument("--record-split: '" + text + "' " + wrong);
-  if (bytes < min) throw std::invalid_argument("--record-split: '" + text + "' is below 1MiB");
+    throw InputError("--record-split: '" + text + "' " + wrong);
+  if (bytes < min) throw InputError("--record-split: '" + text + "' is below 1MiB");
   return static_cast<std::uint64_t>(bytes);
 }
 
@@ -30,7 +29,7 @@ Duration checkpoint_period(const RecordArguments& arguments) {
   if (arguments.checkpoints.empty()) return {};
   const Duration period = length_of("--record-checkpoints", arguments.checkpoints);
   if (period < std::chrono::milliseconds(1))
-    throw std::invalid_argument("--record-checkpoints: '" + arguments.checkpoints + "' is below 1ms");
+    throw InputError("--record-checkpoints: '" + arguments.checkpoints + "' is below 1ms");
   return period;
 }
 
@@ -63,10 +62,9 @@ void add_record_options(Command& command, RecordArguments& arguments) {
 
 void require_effect(const Command& command, const RecordArguments& arguments) {
   for (const auto& [option, file] : {std::pair("--log", arguments.log), {"--record", arguments.record}})
-    if (file == "-")
-      throw std::invalid_argument(std::string(option) + ": '-' is no file; a recording is read by its name");
+    if (file == "-") throw InputError(std::string(option) + ": '-' is no file; a recording is read by its name");
   if (!arguments.log.empty() && !arguments.record.empty())
-    throw std::invalid_argument("--log writes what --record with --record-what inputs does; leave one of both out");
+    throw InputError("--log writes what --record with --record-what inputs does; leave one of both out");
   if (arguments.record.empty())
     command.refuse({"--record-what"}, "is about --record; add --record FILE, or leave it out");
   if (arguments.file().empty())

@@ -25,7 +25,7 @@ void add_record_options(Command& command, RecordArguments& arguments);
 /// Throws where an option would have no effect.
 void require_effect(const Command& command, const RecordArguments& arguments);
 
-/// Throws std::invalid_argument for a size or a period that can't be.
+/// Throws InputError for a size or a period that can't be.
 RecordingOptions options_of(const RecordArguments& arguments);
 
 /// A line of the report that names it.

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <iostream>
-#include <stdexcept>
 
+#include "graph/text/errors.h"
 #include "runtime/files/atomic_file.h"
 #include "runtime/record/trace_csv.h"
 #include "tools/commands/run/apart.h"
@@ -22,7 +22,7 @@ std::string path_of(const std::string& name) {
   if (name != "-") return name;
   // one that was closed is open for reading: nothing else takes its place
   if ((::fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) == O_RDONLY)
-    throw std::invalid_argument("'-' is stdout, which is closed; name a file, or open it");
+    throw InputError("'-' is stdout, which is closed; name a file, or open it");
   return of_stdout;
 }
 
@@ -60,10 +60,10 @@ ReportsAside::~ReportsAside() {
 RunFiles::RunFiles(const Graph& graph, const RunFileArguments& arguments, std::string note,
                    const std::vector<const Type*>& truths) {
   if (!arguments.signals.empty() && arguments.plot.empty())
-    throw std::invalid_argument("--signals says what --plot draws; add --plot FILE, or leave it out");
+    throw InputError("--signals says what --plot draws; add --plot FILE, or leave it out");
   for (const auto& [given, name] : {std::pair(arguments.fill, "--trace-fill"), {arguments.words, "--trace-words"}})
     if (given && arguments.trace.empty())
-      throw std::invalid_argument(std::string(name) + " is about --trace; add --trace FILE, or leave it out");
+      throw InputError(std::string(name) + " is about --trace; add --trace FILE, or leave it out");
   if (arguments.trace.empty() && arguments.plot.empty()) return;
   const std::string trace = path_of(arguments.trace), plot = path_of(arguments.plot);
   for (const std::string& path : {trace, plot})

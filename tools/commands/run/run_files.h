@@ -41,7 +41,7 @@ class ReportsAside {
 class RunFiles {
  public:
   /// `note`: how the run differs from others of its graph; `truths`: by distributer the type of what is known of its
-  /// vehicle, or null. Throws std::runtime_error if one can't be made, std::invalid_argument if it can't hold what is
+  /// vehicle, or null. Throws std::runtime_error if one can't be made, InputError if it can't hold what is
   /// asked for.
   RunFiles(const Graph& graph, const RunFileArguments& arguments, std::string note,
            const std::vector<const Type*>& truths);

@@ -1,8 +1,7 @@
 #include "tools/commands/run/run_options.h"
 
-#include <stdexcept>
-
 #include "distributers/session/graph_run.h"
+#include "graph/text/errors.h"
 #include "tools/commands/run/apart.h"
 #include "tools/commands/run/at_console.h"
 #include "tools/commands/run/execution.h"
@@ -61,7 +60,7 @@ void require_effect(const Command& command, const RunArguments& options) {
   require_execution_effect(command, virtual_clock);
   require_guard_effect(command, options.guard, virtual_clock);
   if (options.concurrency != "threads") return;
-  if (options.clock != "real") throw std::invalid_argument("--concurrency threads needs --clock real");
+  if (options.clock != "real") throw InputError("--concurrency threads needs --clock real");
   command.refuse({"--trace", "--trace-fill", "--trace-words", "--plot", "--signals", "--log", "--record", "--workers",
                   "--spin", "--console"},
                  "belongs to --concurrency exotasks");
@@ -73,8 +72,7 @@ Duration end_of_run(const RunArguments& options, const Loaded& loaded) {
   const Duration end = end_of_mission(pointers_to(loaded.channels));
   if (end == Duration{} && (options.clock == "real" || !operators_at_console(loaded).empty())) return Duration::max();
   if (end == Duration{})
-    throw std::invalid_argument("'" + options.file +
-                                "' has no mission that ends; say how long to run, as in --for 10s");
+    throw InputError("'" + options.file + "' has no mission that ends; say how long to run, as in --for 10s");
   return end;
 }
 

@@ -36,7 +36,7 @@ struct RunArguments {
 
 void add_run_options(Command& command, RunArguments& options);
 
-// These throw std::invalid_argument.
+// These throw InputError.
 
 /// Refuses options that would have no effect.
 void require_effect(const Command& command, const RunArguments& options);

@@ -1,8 +1,7 @@
 #include "tools/commands/run/what_if.h"
 
-#include <stdexcept>
-
 #include "graph/language/override.h"
+#include "graph/text/errors.h"
 #include "tools/report/duration_option.h"
 
 namespace jarol::tools {
@@ -12,8 +11,8 @@ constexpr std::size_t max_count = 4;
 constexpr std::string_view example = "; write it as in 'at=30s set=tasks.depth.parameters.kp=0.2'";
 
 WhatIf parse_what_if(const std::string& words) {
-  const auto fail = [&](const std::string& wrong) -> std::invalid_argument {
-    return std::invalid_argument("--what-if: '" + words + "' " + wrong + std::string(example));
+  const auto fail = [&](const std::string& wrong) -> InputError {
+    return InputError("--what-if: '" + words + "' " + wrong + std::string(example));
   };
   std::vector<std::size_t> sets;
   for (std::size_t at = words.find(" set="); at != std::string::npos; at = words.find(" set=", at + 1))
@@ -34,8 +33,8 @@ WhatIf parse_what_if(const std::string& words) {
 
 std::vector<WhatIf> parse_what_ifs(const std::vector<std::string>& words) {
   if (words.size() > max_count)
-    throw std::invalid_argument("--what-if: there are " + std::to_string(words.size()) + " of them, and at most " +
-                                std::to_string(max_count) + " stand side by side");
+    throw InputError("--what-if: there are " + std::to_string(words.size()) + " of them, and at most " +
+                     std::to_string(max_count) + " stand side by side");
   std::vector<WhatIf> all;
   for (const std::string& each : words) all.push_back(parse_what_if(each));
   return all;

@@ -10,7 +10,7 @@
 namespace jarol::tools {
 
 /// Of "at=30s set=tasks.depth.parameters.kp=0.2", with any number of `set`; a few of them. Throws
-/// std::invalid_argument.
+/// InputError.
 std::vector<WhatIf> parse_what_ifs(const std::vector<std::string>& words);
 
 /// The run and what became of each what-if, side by side; nothing if there is none.

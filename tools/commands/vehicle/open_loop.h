@@ -18,8 +18,8 @@ struct Commands {
   Value inputs;
 };
 
-/// Columns: `time` (s), then inputs of the vehicle. A column that lacks leaves its input at rest, an empty cell keeps
-/// what was. What is wrong goes to `problems`.
+/// Columns: `time` (s), then inputs of the vehicle. A column that is missing leaves its input at rest, an empty cell
+/// keeps what was. What is wrong goes to `problems`.
 std::vector<Commands> read_commands(const std::shared_ptr<const Source>& script, const vehicles::VehicleClass& vehicle,
                                     Problems& problems);
 

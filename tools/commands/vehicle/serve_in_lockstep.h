@@ -16,7 +16,7 @@ namespace jarol::tools {
 void report(const vehicles::Mishap& mishap, const std::string& name);
 
 /// Those who connect have it one after the other, each a vehicle of its own from the start; until Ctrl-C. The exit
-/// code. Throws std::runtime_error if it can't listen there.
+/// code. Throws InputError if it can't listen there.
 int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const distributers::Address& listen,
                               const std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)>& make,
                               const std::optional<distributers::SecretKey>& key);

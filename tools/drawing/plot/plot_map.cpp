@@ -5,8 +5,6 @@
 #include <limits>
 
 #include "tools/drawing/plot/plot_axis.h"
-#include "tools/drawing/plot/plot_pen.h"
-#include "tools/drawing/plot/svg_text.h"
 
 namespace jarol::tools {
 namespace {
@@ -33,7 +31,7 @@ Axis axis_of(const Range& range, double pixels_per_metre, double from, double to
 
 }  // namespace
 
-PlotMap::Path::Path(PathSource source, std::string name, std::string_view stroke)
+PlotMap::Path::Path(PathSource source, std::string name, const Stroke& stroke)
     : source_(std::move(source)), name_(std::move(name)), stroke_(stroke) {}
 
 void PlotMap::Path::take(std::uint32_t output, const void* value) {
@@ -74,20 +72,19 @@ void PlotMap::draw(double left, double right, double top, PlotPen& pen) const {
   Axis x = axis_of(east, scale, left, right), y = axis_of(north, scale, bottom, top);
   x.ticks = y.ticks = find_ticks(y.max - y.min, 6, false);
 
-  pen.svg += "<g stroke-linejoin=\"round\" stroke-linecap=\"round\">\n<path stroke=\"#E4E7EB\" d=\"";
-  x.for_each_tick([&](double at, const std::string&) { pen.svg += "M" + px(at) + "," + px(top) + "V" + px(bottom); });
-  y.for_each_tick([&](double at, const std::string&) { pen.svg += "M" + px(left) + "," + px(at) + "H" + px(right); });
-  pen.svg += "\"/>\n<rect x=\"" + px(left) + "\" y=\"" + px(top) + "\" width=\"" + px(right - left) + "\" height=\"" +
-             px(height) + "\" stroke=\"#9AA5B1\" fill=\"none\"/>\n";
-  pen.svg +=
-      "<text x=\"" + px(left) + "\" y=\"" + px(top - 9) +
-      "\"><tspan font-size=\"14\" font-weight=\"bold\" fill=\"#1F2933\">path</tspan> [m] seen from above</text>\n";
-  pen.svg += "<g text-anchor=\"end\">\n";
-  y.for_each_tick([&](double at, const std::string& label) { pen.text(left - 8, at + 4, "", label); });
-  pen.svg += "</g>\n<g text-anchor=\"middle\">\n";
-  x.for_each_tick([&](double at, const std::string& label) { pen.text(at, bottom + 18, "", label); });
-  pen.text((left + right) / 2, bottom + 37, "", "east [m], north is up");
-  pen.svg += "</g>\n";
+  pen.svg.begin("g", {{"stroke-linejoin", "round"}, {"stroke-linecap", "round"}}).line_end();
+  std::string grid;
+  x.for_each_tick([&](double at, const std::string&) { grid += "M" + px(at) + "," + px(top) + "V" + px(bottom); });
+  y.for_each_tick([&](double at, const std::string&) { grid += "M" + px(left) + "," + px(at) + "H" + px(right); });
+  pen.grid(grid);
+  pen.frame(left, right, top, height);
+  pen.heading(left, top - 9, "path", " [m] seen from above");
+  pen.svg.begin("g", {{"text-anchor", "end"}}).line_end();
+  y.for_each_tick([&](double at, const std::string& label) { pen.text(left - 8, at + 4, label); });
+  pen.svg.end().line_end().begin("g", {{"text-anchor", "middle"}}).line_end();
+  x.for_each_tick([&](double at, const std::string& label) { pen.text(at, bottom + 18, label); });
+  pen.text((left + right) / 2, bottom + 37, "east [m], north is up");
+  pen.svg.end().line_end();
 
   constexpr double legend_width = 96;
   double legend = right - legend_width * static_cast<double>(paths_.size() + 1);
@@ -105,17 +102,18 @@ void PlotMap::draw(double left, double right, double top, PlotPen& pen) const {
     };
     for (const Path::Place& place : path.places_) add(place, 1);
     add(path.last_, 0);
-    pen.svg.append("<path fill=\"none\" ").append(path.stroke_).append(" d=\"" + line + "\"/>\n");
+    pen.path(line, path.stroke_);
     pen.line(legend, legend + 26, top - 13, path.stroke_);
-    pen.text(legend + 32, top - 9, "", path.name_);
+    pen.text(legend + 32, top - 9, path.name_);
   }
   const Path& newest = paths_.back().places_.empty() ? paths_.front() : paths_.back();
   for (const auto& [place, word] : {std::pair(newest.places_.front(), "start"), std::pair(newest.last_, "end")}) {
-    pen.svg += "<circle cx=\"" + px(x.place(place.east)) + "\" cy=\"" + px(y.place(place.north)) +
-               "\" r=\"4\" fill=\"#1F2933\"/>\n";
-    pen.text(x.place(place.east) + 7, y.place(place.north) - 7, "", word);
+    pen.svg.element(
+        "circle", {{"cx", px(x.place(place.east))}, {"cy", px(y.place(place.north))}, {"r", "4"}, {"fill", "#1F2933"}});
+    pen.svg.line_end();
+    pen.text(x.place(place.east) + 7, y.place(place.north) - 7, word);
   }
-  pen.svg += "</g>\n";
+  pen.svg.end().line_end();
 }
 
 }  // namespace jarol::tools

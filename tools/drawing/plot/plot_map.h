@@ -3,15 +3,13 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "graph/values/bind.h"
+#include "tools/drawing/plot/plot_pen.h"
 
 namespace jarol::tools {
-
-class PlotPen;
 
 /// Leaves of one output, in m to the north and to the east.
 struct PathSource {
@@ -27,7 +25,7 @@ class PlotMap {
   /// A bounded number of places in equal distances of time, however long the run.
   class Path {
    public:
-    Path(PathSource source, std::string name, std::string_view stroke);
+    Path(PathSource source, std::string name, const Stroke& stroke);
     void take(std::uint32_t output, const void* value);
 
    private:
@@ -38,7 +36,7 @@ class PlotMap {
 
     PathSource source_;
     std::string name_;
-    std::string_view stroke_;
+    Stroke stroke_;
     std::vector<Place> places_;
     Place last_;
     std::uint64_t taken_ = 0, step_ = 1;

@@ -2,23 +2,53 @@
 
 #include <algorithm>
 
-#include "graph/text/escape.h"
-#include "tools/drawing/plot/svg_text.h"
-
 namespace jarol::tools {
 
-void PlotPen::text(double x, double y, std::string_view attributes, std::string_view words) {
-  svg += "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\"";
-  if (!attributes.empty()) svg.append(" ").append(attributes);
-  svg.append(">").append(xml_text(words)).append("</text>\n");
+void Stroke::add_to(SvgAttributes& attributes) const {
+  attributes.push_back({"stroke", std::string(colour)});
+  attributes.push_back({"stroke-width", std::string(width)});
+  if (!dashes.empty()) attributes.push_back({"stroke-dasharray", std::string(dashes)});
 }
 
-void PlotPen::line(double x1, double x2, double y, std::string_view stroke) {
-  svg.append("<path ").append(stroke).append(" d=\"M" + px(x1) + "," + px(y) + "H" + px(x2) + "\"/>\n");
+void PlotPen::text(double x, double y, std::string_view words, SvgAttributes attributes) {
+  attributes.insert(attributes.begin(), {{"x", px(x)}, {"y", px(y)}});
+  svg.element("text", attributes, words).line_end();
+}
+
+void PlotPen::line(double x1, double x2, double y, const Stroke& stroke) {
+  SvgAttributes attributes;
+  stroke.add_to(attributes);
+  attributes.push_back({"d", "M" + px(x1) + "," + px(y) + "H" + px(x2)});
+  svg.element("path", attributes).line_end();
+}
+
+void PlotPen::grid(const std::string& path) { svg.element("path", {{"stroke", "#E4E7EB"}, {"d", path}}).line_end(); }
+
+void PlotPen::frame(double left, double right, double top, double height) {
+  svg.element("rect", {{"x", px(left)},
+                       {"y", px(top)},
+                       {"width", px(right - left)},
+                       {"height", px(height)},
+                       {"stroke", "#9AA5B1"},
+                       {"fill", "none"}});
+  svg.line_end();
+}
+
+void PlotPen::heading(double x, double y, std::string_view title, std::string_view more) {
+  svg.begin("text", {{"x", px(x)}, {"y", px(y)}});
+  svg.element("tspan", {{"font-size", "14"}, {"font-weight", "bold"}, {"fill", "#1F2933"}}, title);
+  svg.words(more).end().line_end();
+}
+
+void PlotPen::path(const std::string& path, const Stroke& stroke) {
+  SvgAttributes attributes{{"fill", "none"}};
+  stroke.add_to(attributes);
+  attributes.push_back({"d", path});
+  svg.element("path", attributes).line_end();
 }
 
 void PlotPen::curve(const PlotCurve& curve, const std::vector<PlotCurve::Point>& points, const Axis& x, const Axis& y,
-                    std::string_view stroke, double end) {
+                    const Stroke& stroke, double end) {
   path_.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const PlotCurve::Point& b = points[i];
@@ -50,7 +80,7 @@ void PlotPen::curve(const PlotCurve& curve, const std::vector<PlotCurve::Point>&
   }
   if (curve.held) go_on(end, y.place(points.back().value));
   end_stroke();
-  svg.append("<path fill=\"none\" ").append(stroke).append(" d=\"" + path_ + "\"/>\n");
+  path(path_, stroke);
 }
 
 void PlotPen::start(double x, double y) {

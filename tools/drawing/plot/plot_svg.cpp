@@ -6,12 +6,9 @@
 #include <numbers>
 #include <string_view>
 
-#include "graph/text/escape.h"
 #include "runtime/files/atomic_file.h"
 #include "tools/drawing/plot/plot_axis.h"
 #include "tools/drawing/plot/plot_names.h"
-#include "tools/drawing/plot/plot_pen.h"
-#include "tools/drawing/plot/svg_text.h"
 
 namespace jarol::tools {
 namespace {
@@ -27,23 +24,18 @@ constexpr double panel_gap = 14;
 constexpr double time_labels = 48;
 
 // colours of Okabe and Ito, told apart with any kind of colour vision
-constexpr std::string_view reached_stroke = R"(stroke="#0072B2" stroke-width="2")";
-constexpr std::string_view commanded_stroke = R"(stroke="#D55E00" stroke-width="1.6" stroke-dasharray="6 4")";
+constexpr Stroke reached_stroke{"#0072B2", "2"};
+constexpr Stroke commanded_stroke{"#D55E00", "1.6", "6 4"};
 // broad and pale, so that what lies on it is seen
-constexpr std::string_view true_stroke = R"(stroke="#B8C1CC" stroke-width="5")";
+constexpr Stroke true_stroke{"#B8C1CC", "5"};
 
 // of other runs, in turn
-constexpr std::array<std::string_view, 4> other_strokes{
-    R"(stroke="#009E73" stroke-width="1.6")", R"(stroke="#CC79A7" stroke-width="1.6")",
-    R"(stroke="#E69F00" stroke-width="1.6")", R"(stroke="#56B4E9" stroke-width="1.6")"};
+constexpr std::array other_strokes{Stroke{"#009E73", "1.6"}, Stroke{"#CC79A7", "1.6"}, Stroke{"#E69F00", "1.6"},
+                                   Stroke{"#56B4E9", "1.6"}};
 
 // of several values of one kind, in turn
-constexpr std::array<std::string_view, 6> strokes_of_kind{
-    R"(stroke="#0072B2" stroke-width="1.6")", R"(stroke="#D55E00" stroke-width="1.6")",
-    R"(stroke="#009E73" stroke-width="1.6")", R"(stroke="#CC79A7" stroke-width="1.6")",
-    R"(stroke="#E69F00" stroke-width="1.6")", R"(stroke="#56B4E9" stroke-width="1.6")"};
-
-constexpr std::string_view title_font = R"(font-size="14" font-weight="bold" fill="#1F2933")";
+constexpr std::array strokes_of_kind{Stroke{"#0072B2", "1.6"}, Stroke{"#D55E00", "1.6"}, Stroke{"#009E73", "1.6"},
+                                     Stroke{"#CC79A7", "1.6"}, Stroke{"#E69F00", "1.6"}, Stroke{"#56B4E9", "1.6"}};
 
 constexpr double degrees = 180.0 / std::numbers::pi;
 
@@ -62,6 +54,19 @@ std::string name_of(const Panel& panel) {
 }
 
 bool is_angle(std::string_view unit) { return unit == "rad" || unit.starts_with("rad/") || unit.starts_with("rad "); }
+
+void begin_picture(double height, std::string_view title, Svg& svg) {
+  svg.declaration().begin("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
+                                  {"version", "1.1"},
+                                  {"width", px(width)},
+                                  {"height", px(height)},
+                                  {"viewBox", "0 0 " + px(width) + " " + px(height)},
+                                  {"font-family", "Helvetica,Arial,'Liberation Sans','DejaVu Sans',sans-serif"},
+                                  {"font-size", "12"},
+                                  {"fill", "#52606D"}});
+  svg.line_end().element("title", {}, title).line_end();
+  svg.element("rect", {{"width", "100%"}, {"height", "100%"}, {"fill", "#FFFFFF"}}).line_end();
+}
 
 }  // namespace
 
@@ -91,8 +96,8 @@ PlotSvg::PlotSvg(std::string path, std::string title, std::vector<Panel> panels,
   if (extras.path) paths_.emplace_back(*extras.path, "reached", reached_stroke);
 }
 
-void PlotSvg::add_line(Drawing& drawing, std::uint32_t output, const Leaf& leaf, std::string_view stroke,
-                       std::string name, bool held) {
+void PlotSvg::add_line(Drawing& drawing, std::uint32_t output, const Leaf& leaf, const Stroke& stroke, std::string name,
+                       bool held) {
   PlotCurve curve;
   curve.leaf = leaf;
   if (is_angle(leaf.unit.empty() ? drawing.panel.unit : leaf.unit)) curve.factor = degrees;
@@ -129,7 +134,7 @@ class PlotSvg::Beside : public RecordSink {
 };
 
 std::unique_ptr<RecordSink> PlotSvg::beside(std::string name) {
-  const std::string_view stroke = other_strokes[others_++ % other_strokes.size()];
+  const Stroke& stroke = other_strokes[others_++ % other_strokes.size()];
   for (Drawing& drawing : drawings_) {
     if (!drawing.panel.more.empty()) continue;  // colours enough
     PlotCurve curve = curves_[drawing.first];
@@ -168,7 +173,7 @@ void PlotSvg::draw_legend(const Drawing& drawing, double top, PlotPen& pen) {
   for (const Line* line : entries) {
     at -= std::max(84.0, 2 * stroke_length + 2 * gap + letter * static_cast<double>(line->name.size()));
     pen.line(at, at + stroke_length, top - 13, line->stroke);
-    pen.text(at + stroke_length + gap, top - 9, "", line->name);
+    pen.text(at + stroke_length + gap, top - 9, line->name);
   }
 }
 
@@ -215,33 +220,31 @@ void PlotSvg::draw(const Drawing& drawing, double top, PlotPen& pen) const {
   const Axis x = time_axis(end_, left, right);
   const std::vector<NamedValue> named = names ? names_in(lines, *first.leaf.type) : std::vector<NamedValue>{};
 
-  pen.svg += "<path stroke=\"#E4E7EB\" d=\"";
-  x.for_each_tick([&](double at, const std::string&) { pen.svg += "M" + px(at) + "," + px(top) + "V" + px(bottom); });
-  const auto across = [&](double at) { pen.svg += "M" + px(left) + "," + px(at) + "H" + px(right); };
+  std::string grid;
+  x.for_each_tick([&](double at, const std::string&) { grid += "M" + px(at) + "," + px(top) + "V" + px(bottom); });
+  const auto across = [&](double at) { grid += "M" + px(left) + "," + px(at) + "H" + px(right); };
   for (const NamedValue& each : named) across(y.place(each.value));
   if (!no_data && !names) y.for_each_tick([&](double at, const std::string&) { across(at); });
-  pen.svg += "\"/>\n<rect x=\"" + px(left) + "\" y=\"" + px(top) + "\" width=\"" + px(right - left) + "\" height=\"" +
-             px(panel_height) + "\" stroke=\"#9AA5B1\" fill=\"none\"/>\n";
+  pen.grid(grid);
+  pen.frame(left, right, top, panel_height);
 
-  pen.svg += "<text x=\"" + px(left) + "\" y=\"" + px(top - 9) + "\"><tspan " + std::string(title_font) + ">" +
-             xml_text(drawing.panel.title) + "</tspan>";
-  if (!drawing.unit.empty()) pen.svg += " [" + xml_text(drawing.unit) + "]";
-  pen.svg += "</text>\n";
+  pen.heading(left, top - 9, drawing.panel.title, drawing.unit.empty() ? "" : " [" + drawing.unit + "]");
   if (no_data) {
-    pen.text((left + right) / 2, top + panel_height / 2 + 5, "font-size=\"14\" text-anchor=\"middle\"", "no data");
+    pen.text((left + right) / 2, top + panel_height / 2 + 5, "no data",
+             {{"font-size", "14"}, {"text-anchor", "middle"}});
     return;
   }
   if (!names) {
-    pen.svg += "<g text-anchor=\"end\">\n";
-    y.for_each_tick([&](double at, const std::string& label) { pen.text(left - 8, at + 4, "", label); });
-    pen.svg += "</g>\n";
+    pen.svg.begin("g", {{"text-anchor", "end"}}).line_end();
+    y.for_each_tick([&](double at, const std::string& label) { pen.text(left - 8, at + 4, label); });
+    pen.svg.end().line_end();
   }
   for (std::size_t i = 0; i < lines.size(); ++i)
     if (!lines[i].empty()) pen.curve(curves_[drawing.lines[i].curve], lines[i], x, y, drawing.lines[i].stroke, right);
   // within the panel, as they are longer than numbers
   for (const NamedValue& each : named)
-    pen.text(left + 6, y.place(each.value) - 4, "paint-order=\"stroke\" stroke=\"#FFFFFF\" stroke-width=\"3\"",
-             each.name);
+    pen.text(left + 6, y.place(each.value) - 4, each.name,
+             {{"paint-order", "stroke"}, {"stroke", "#FFFFFF"}, {"stroke-width", "3"}});
   draw_legend(drawing, top, pen);
 }
 
@@ -254,31 +257,26 @@ std::string PlotSvg::text() const {
                         : map.is_empty()  ? bottom + time_labels
                                           : map_top + PlotMap::height + time_labels;
   PlotPen pen;
-  pen.svg =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\" width=\"" +
-      px(width) + "\" height=\"" + px(height) + "\" viewBox=\"0 0 " + px(width) + " " + px(height) +
-      "\" font-family=\"Helvetica,Arial,'Liberation Sans','DejaVu Sans',sans-serif\" font-size=\"12\" "
-      "fill=\"#52606D\">\n<title>" +
-      xml_text(title_) + "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>\n";
-  pen.text(left, 32, "font-size=\"18\" font-weight=\"bold\" fill=\"#1F2933\"", title_);
-  if (!note_.empty()) pen.text(right, 32, "text-anchor=\"end\"", note_);
+  begin_picture(height, title_, pen.svg);
+  pen.text(left, 32, title_, {{"font-size", "18"}, {"font-weight", "bold"}, {"fill", "#1F2933"}});
+  if (!note_.empty()) pen.text(right, 32, note_, {{"text-anchor", "end"}});
   if (drawings_.empty()) {
-    pen.text(left, first_panel + 16, "", "no data");
-    return pen.svg + "</svg>\n";
+    pen.text(left, first_panel + 16, "no data");
+    return pen.svg.end().line_end().text();
   }
   for (std::size_t i = 0; i < drawings_.size(); ++i) {
-    pen.svg += "<g stroke-linejoin=\"round\" stroke-linecap=\"round\">\n";
+    pen.svg.begin("g", {{"stroke-linejoin", "round"}, {"stroke-linecap", "round"}}).line_end();
     draw(drawings_[i], first_panel + heading_line + pitch * static_cast<double>(i), pen);
-    pen.svg += "</g>\n";
+    pen.svg.end().line_end();
   }
-  pen.svg += "<g text-anchor=\"middle\">\n";
+  pen.svg.begin("g", {{"text-anchor", "middle"}}).line_end();
   time_axis(end_, left, right).for_each_tick([&](double at, const std::string& label) {
-    pen.text(at, bottom + 18, "", label);
+    pen.text(at, bottom + 18, label);
   });
-  pen.text((left + right) / 2, bottom + 37, "", "time [s]");
-  pen.svg += "</g>\n";
+  pen.text((left + right) / 2, bottom + 37, "time [s]");
+  pen.svg.end().line_end();
   if (!map.is_empty()) map.draw(left, right, map_top, pen);
-  return pen.svg + "</svg>\n";
+  return pen.svg.end().line_end().text();
 }
 
 void PlotSvg::finish() {

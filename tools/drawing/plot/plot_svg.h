@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,10 +13,9 @@
 #include "runtime/record/recorder.h"
 #include "tools/drawing/plot/plot_curve.h"
 #include "tools/drawing/plot/plot_map.h"
+#include "tools/drawing/plot/plot_pen.h"
 
 namespace jarol::tools {
-
-class PlotPen;
 
 /// One panel of the picture: a line of what was reached and, where there are such, a step line of what was commanded
 /// and a broad one of what is true. Angles are shown in degrees, depths grow downwards, headings go from -180 to 180
@@ -56,7 +54,7 @@ class PlotSvg : public RecordSink {
  private:
   struct Line {
     std::size_t curve = 0;
-    std::string_view stroke{};
+    Stroke stroke{};
     std::string name{};  // in the legend
   };
   struct Drawing {
@@ -68,7 +66,7 @@ class PlotSvg : public RecordSink {
   };
   class Beside;
 
-  void add_line(Drawing& drawing, std::uint32_t output, const Leaf& leaf, std::string_view stroke, std::string name,
+  void add_line(Drawing& drawing, std::uint32_t output, const Leaf& leaf, const Stroke& stroke, std::string name,
                 bool held = false);
   void draw(const Drawing& drawing, double top, PlotPen& pen) const;
   static void draw_legend(const Drawing& drawing, double top, PlotPen& pen);

@@ -8,6 +8,7 @@
 
 #include "graph/language/quantities.h"
 #include "graph/model/with_wcets.h"
+#include "graph/text/errors.h"
 #include "tests/graph/graph_of.h"
 #include "tests/tools/run_command.h"
 #include "tools/commands/run/load_graph.h"
@@ -99,13 +100,13 @@ connections: [a.out -> b.in]
           "graph: t\r\ntasks:\r\n  a:\r\n    type: Counter\r\n    wcet: 1us\r\n    period: 1ms\r\n");
     CHECK_THROWS_WITH_AS(
         rewritten("graph: t\ntasks:\n  a:\n    type: Counter\n    period: 1ms\n    wcet: >-\n      1ns\n", {1us}),
-        "the 'wcet' of task 'a' is a block of lines; write it on the line of its key", std::invalid_argument);
+        "the 'wcet' of task 'a' is a block of lines; write it on the line of its key", InputError);
   }
 
   TEST_CASE("tasks that share one place of the file are not edited") {
     CHECK_THROWS_WITH_AS(rewritten("graph: t\ntasks:\n  a: &one {type: Counter, period: 1ms}\n  b: *one\n", {1us, 1us}),
                          "two tasks share one place of the file through an alias; write their 'wcet' yourself",
-                         std::invalid_argument);
+                         InputError);
   }
 
   TEST_CASE("a task without a new WCET keeps its line") {
@@ -115,7 +116,7 @@ connections: [a.out -> b.in]
           "graph: t\ntasks:\n  a: {type: Counter, period: 1ms}\n  b: {type: Counter, wcet: 1us, period: 1ms}\n");
   }
 
-  TEST_CASE("check --write writes what lacks or is too short, keeps what is longer, and says so") {
+  TEST_CASE("check --write writes what is missing or too short, keeps what is longer, and says so") {
     const TemporaryFolder folder;
     const std::string file = folder.write("t.yaml", file_text);
     const auto reported = command::run_jarol("check --write --for 1s --margin 50 " + file, "2>&1 >/dev/null").output;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "graph/text/errors.h"
 #include "tests/tools/console/client.h"
 #include "tests/tools/run_command.h"
 
@@ -128,8 +129,8 @@ connections: [from -> a.sensors, a.motors -> to]
     const auto none = [](const auto&) {};
     CHECK_THROWS_WITH_AS(Trial(program(), {.file = "a.yaml", .length = "--json"}, none, none),
                          "the length '--json' has the unit '-json'; write one of h, min, s, ms, us or ns",
-                         std::invalid_argument);
+                         jarol::InputError);
     CHECK_THROWS_WITH_AS(Trial(program(), {.file = "a.yaml", .profile = "--json"}, none, none),
-                         "'--json' is no name of a profile", std::invalid_argument);
+                         "'--json' is no name of a profile", jarol::InputError);
   }
 }

@@ -7,7 +7,7 @@
 
 #include "tests/tools/run_command.h"
 #include "tools/commands/run/load_graph.h"
-#include "tools/drawing/graph/svg.h"
+#include "tools/drawing/graph/graph_svg.h"
 
 namespace {
 using namespace jarol;

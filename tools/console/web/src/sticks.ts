@@ -39,6 +39,13 @@ export class StickReader<Name extends string> {
   press(code: string): void {
     if (this.isKey(code)) this.held.add(code);
   }
+  /** A key goes down: it moves its stick, unless it is meant for what has the focus or for the browser. */
+  keyDown(event: KeyboardEvent): void {
+    if (!this.isKey(event.code) || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (takesKeys(event.target)) return;
+    event.preventDefault();
+    this.press(event.code);
+  }
   lift(code: string): void {
     this.held.delete(code);
   }

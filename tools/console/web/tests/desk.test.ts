@@ -50,6 +50,35 @@ test("climb and turn keep within limits", () => {
   assert.ok(Math.abs(goals.yaw - wrapped(4)) < 1e-9);
 });
 
+// What has the focus, in a page.
+class Element {
+  readonly what: string;
+  constructor(what: string) {
+    this.what = what;
+  }
+  closest(): null {
+    return null;
+  }
+  matches(list: string): boolean {
+    return list.split(", ").includes(this.what);
+  }
+}
+
+test("a key moves its stick, and is left to what has the focus and to the browser's own", () => {
+  Object.assign(globalThis, { HTMLElement: Element });
+  const moved = (event: object) => {
+    const input = new StickReader(stickPlan);
+    let kept = false;
+    input.keyDown({ code: "KeyW", target: new Element("button"), preventDefault: () => (kept = true), ...event } as never);
+    assert.equal(kept, input.read().climb !== 0);
+    return kept;
+  };
+  assert.ok(moved({}));
+  assert.ok(!moved({ code: "KeyX" }));
+  for (const held of ["ctrlKey", "metaKey", "altKey"]) assert.ok(!moved({ [held]: true }), held);
+  for (const what of ["input", "select", "textarea", ".map"]) assert.ok(!moved({ target: new Element(what) }), what);
+});
+
 test("the newest of keys, pads and gamepad moves a stick, and all that is let go is centred", () => {
   const input = new StickReader(stickPlan);
   assert.deepEqual(input.read(), centred);

@@ -14,7 +14,8 @@ struct HoldLevel {
     double max = 0.05;
     static constexpr auto fields() {
       using jarol::field;
-      return jarol::describe(field<&Param::goal>("m", "the level"), field<&Param::gain>("", "inflow by what lacks"),
+      return jarol::describe(field<&Param::goal>("m", "the level"),
+                             field<&Param::gain>("", "inflow per metre below the goal"),
                              field<&Param::max>("m", "inflow of an activation, at most"));
     }
   };
