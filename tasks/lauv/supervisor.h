@@ -100,8 +100,8 @@ struct LauvSupervisor {
     double depth_at_alarm = 0;
     std::uint32_t stops = 0;
     bool surfaced = false;
-    std::array<std::int64_t, 14> counts{};
-    std::array<double, 14> silences{};
+    std::array<std::int64_t, 17> counts{};
+    std::array<double, 17> silences{};
     double since_fix = 0;
     std::int64_t fixes = 0;
     std::array<double, 7> wrong_for{};

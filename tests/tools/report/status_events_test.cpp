@@ -87,9 +87,9 @@ TEST_SUITE("tools/status_events") {
   TEST_CASE("what holds from the first value on is reported, and no change without a meaning") {
     CHECK(
         Reported({Alarm::leak, Alarm::leak}).changes.to_text() ==
-        "  event       to_neptus at 0 s: alarm leak: it comes up, as there is water in the hull, or the leak detector "
+        "  event       to_neptus at 0 s: alarm leak: it comes up, as there is water at the first leak sensor, or that "
         "is silent\n"
-        "  event       to_siren at 0 s: leak: it comes up, as there is water in the hull, or the leak detector is "
+        "  event       to_siren at 0 s: leak: it comes up, as there is water at the first leak sensor, or that is "
         "silent\n");
     CHECK(Reported({Alarm::none, Alarm::none}).changes.to_text() == "");
   }
@@ -126,7 +126,7 @@ TEST_SUITE("tools/status_events") {
   }
 
   TEST_CASE("water in the hull is reported, on any clock and by threads too") {
-    const std::string line = "alarm leak: it comes up, as there is water in the hull, or the leak detector is silent";
+    const std::string line = "alarm leak: it comes up, as there is water at the first leak sensor, or that is silent";
     const std::string run = "run specs/exolauv.yaml" + leak + " --for ";
     CHECK(reported_in(command::run_jarol(run + "1200ms").output) ==
           std::vector<std::string>{"to_neptus at 1.02 s: " + line});
