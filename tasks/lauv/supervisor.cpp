@@ -170,6 +170,13 @@ Alarm find_actuator(const Param& p, const LauvSupervisor::In& in, State& state) 
   return is_low(p, voltage) ? Alarm::voltage_limit : found;
 }
 
+FinCheck check_fins(const Param& p, const FinCondition& fins, double dt, State& state) {
+  const bool none =
+      std::all_of(fins.states.begin(), fins.states.end(), [](FinState fin) { return fin == FinState::unknown; });
+  state.servos_silent_for = none && state.heard ? state.servos_silent_for + dt : 0;
+  return state.servos_silent_for > p.sensor_timeout ? FinCheck::unchecked : FinCheck::checked;
+}
+
 double calc_heave(const Instruments& i) {
   return sinking_across(i.attitude.x, i.attitude.y, i.velocity.y, i.velocity.z);
 }
@@ -247,6 +254,7 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
   Alarm lost = find_lost(p, in.instruments, dt, state);
   const Alarm liar = find_liar(p, in.instruments, dt, state);
   note_heave(in.instruments, dt, state);
+  const FinCheck fins = check_fins(p, in.fins, dt, state);
   // old readings do not fit each other either
   const bool is_wrong = lost != Alarm::none || liar != Alarm::none;
   if (state.heard && is_wrong && calc_silence(state) > p.vehicle_timeout) lost = Alarm::vehicle_lost;
@@ -265,7 +273,7 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
       state.surfaced = false;
     }
     if (state.alarm == Alarm::none) {
-      out = {in.setpoint, {}};
+      out = {in.setpoint, {.fins = fins}};
       return;
     }
   }
@@ -281,7 +289,7 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
   const bool climbs = steerable(state.alarm) && !state.surfaced;
   // a depth out of reach: nose up as far as the depth control goes, whatever the gauge reads
   out.setpoint = {climbs ? -1000.0 : 0.0, in.setpoint.heading, climbs ? p.climb_speed : 0.0};
-  out.condition.alarm = state.alarm;
+  out.condition = {state.alarm, fins};
 }
 
 template void add_task<LauvSupervisor>(Registry&);

@@ -71,10 +71,23 @@ constexpr auto enumerators(Alarm) {
        {"leak3", leak3, "it comes up, as there is water at the fourth leak sensor, or that is silent"}}};
 }
 
+/// Whether anything finds a fin that sticks.
+enum class FinCheck : std::uint8_t { checked, unchecked };
+
+constexpr auto enumerators(FinCheck) {
+  return std::array<Enumerator<FinCheck>, 2>{
+      {{"checked", FinCheck::checked},
+       {"unchecked", FinCheck::unchecked, "no fin is checked, as no servo reports where it is"}}};
+}
+
 struct Condition {
   Alarm alarm = Alarm::none;
+  FinCheck fins = FinCheck::checked;
 
-  static constexpr auto fields() { return describe(field<&Condition::alarm>("", "why it comes up, or none")); }
+  static constexpr auto fields() {
+    return describe(field<&Condition::alarm>("", "why it comes up, or none"),
+                    field<&Condition::fins>("", "by what their servos report"));
+  }
 };
 
 }  // namespace jarol::tasks

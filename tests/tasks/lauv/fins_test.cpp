@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "tasks/lauv/control.h"
+#include "tasks/lauv/supervisor.h"
+#include "tests/tasks/calm_submarine.h"
 #include "tests/tasks/lauv/every_50_ms.h"
 
 namespace {
@@ -167,6 +169,24 @@ TEST_SUITE("tasks/lauv_fins") {
     CHECK(w.out.fins.states[3] == FinState::silent);
     w.step({}, {});
     CHECK(w.out.fins.states[3] == FinState::follows);
+  }
+
+  TEST_CASE("2.5 s after a vehicle is heard of which no servo is, it is said that no fin is checked, until one is") {
+    LauvSupervisor::State state;
+    LauvSupervisor::Out out;
+    const auto run = [&](std::int64_t k, FinState first) {
+      LauvSupervisor::In in = tests::calm_submarine(k);
+      in.fins.states[0] = first;
+      LauvSupervisor::run({}, every_50_ms, in, state, out);
+      if (k > 0) CHECK(out.condition.alarm == Alarm::none);
+      return out.condition.fins;
+    };
+    using enum FinState;
+    for (int i = 0; i < 60; ++i) CHECK(run(0, unknown) == FinCheck::checked);  // the vehicle comes late
+    for (int k = 1; k < 50; ++k) CHECK(run(k, unknown) == FinCheck::checked);
+    for (int k = 50; k < 53; ++k) run(k, unknown);
+    CHECK(out.condition.fins == FinCheck::unchecked);
+    CHECK(run(53, follows) == FinCheck::checked);
   }
 
   TEST_CASE("an old reading says nothing of a new command") {
