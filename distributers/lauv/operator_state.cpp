@@ -6,6 +6,7 @@
 
 #include "distributers/lauv/messages.h"
 #include "distributers/lauv/operator.h"
+#include "distributers/messages/imc_entity.h"
 #include "distributers/messages/payload.h"
 #include "graph/math/euler_angles.h"
 #include "graph/math/geometry.h"
@@ -20,15 +21,6 @@ constexpr std::string_view actions_known =
     "Exit=Button;Accelerate=Button;Decelerate=Button;Stop=Button;Heading=Axis;Thrust=Axis;Ranges=Range127";
 constexpr Duration altitude_patience = std::chrono::milliseconds(2500);  // as the supervisor's
 constexpr std::size_t max_kept = 100, longest_line = 500;                // of the log book: all fit into one answer
-
-// From an entity, to all.
-template <class M>
-void send_from(std::uint8_t entity, const M& message, messages::Receiver& system) {
-  const imc::Header header{.src_ent = entity};
-  messages::MessageRef made = messages::refer_to(message);
-  made.header = &header;
-  system.receive(made);
-}
 
 }  // namespace
 

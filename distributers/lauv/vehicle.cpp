@@ -24,6 +24,11 @@ constexpr Duration state_patience = std::chrono::seconds(5);
 constexpr Duration state_period = std::chrono::seconds(2);
 constexpr double flat_earth = 100e3;  // m from the origin, as far as plans go
 
+using P = LauvVehicleParameters;
+constexpr std::array leak_parameters{&P::leak, &P::leak1, &P::leak2, &P::leak3};
+constexpr std::array hull_parameters{&P::hull_temperature, &P::hull_temperature1, &P::hull_temperature2,
+                                     &P::hull_temperature3};
+
 // what a device does not measure it writes as no number beside what it does
 bool measured(std::initializer_list<double> values) {
   return std::any_of(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
@@ -32,7 +37,6 @@ bool measured(std::initializer_list<double> values) {
 }  // namespace
 
 LauvVehicle::LauvVehicle(const Param& parameters) : parameters_(parameters) {
-  using P = LauvVehicleParameters;
   using I = Instruments;
   Instruments& all = in.instruments.value;
   all.latitude = parameters.latitude;
@@ -52,10 +56,13 @@ LauvVehicle::LauvVehicle(const Param& parameters) : parameters_(parameters) {
                                 std::pair{&P::altitude, &I::altitude},
                                 std::pair{&P::conductivity, &I::conductivity},
                                 std::pair{&P::water_temperature, &I::water_temperature},
-                                std::pair{&P::leak, &I::leak},
                                 std::pair{&P::voltage, &I::voltage},
                                 std::pair{&P::current, &I::current}};
   std::apply([&](auto... pair) { (leave_out(parameters_.*(pair.first), all.*(pair.second)), ...); }, readings);
+  for (std::size_t k = 0; k < tasks::hull_sensors; ++k) {
+    leave_out(parameters_.*leak_parameters[k], all.*tasks::leak_readings[k]);
+    leave_out(parameters_.*hull_parameters[k], all.*tasks::hull_readings[k]);
+  }
   for (tasks::BeaconReading& beacon : all.beacons) leave_out(parameters_.ranges, beacon);
   for (tasks::ServoReading& servo : in.servos.value.fins) leave_out(parameters_.servos, servo);
 }
@@ -167,7 +174,13 @@ void LauvVehicle::conductivity(const imc::Conductivity& m, const messages::Messa
   note(&Instruments::conductivity, parameters_.conductivity, from, m.value);
 }
 
+// Of the hull only by the label of who sends it: a message of no entity is of the water.
 void LauvVehicle::temperature(const imc::Temperature& m, const messages::MessageRef& from) {
+  for (std::size_t k = 0; k < tasks::hull_sensors; ++k) {
+    const LauvInstrument& sensor = parameters_.*hull_parameters[k];
+    if (Entities::sender_of(from) != Entities::nobody && is(sensor, from))
+      return note(tasks::hull_readings[k], sensor, from, m.value);
+  }
   note(&Instruments::water_temperature, parameters_.water_temperature, from, m.value);
 }
 
@@ -183,18 +196,11 @@ void LauvVehicle::current(const imc::Current& m, const messages::MessageRef& fro
   note(&Instruments::current, parameters_.current, from, m.value);
 }
 
-// Water anywhere is a leak, and a detector that falls silent is as good as none: a reading counts when all that are
-// known have reported since the last one did, however often each does.
 void LauvVehicle::entity(const imc::EntityState& m, const messages::MessageRef& from) {
-  if (!is(parameters_.leak, from)) return;
-  leaks_[Entities::sender_of(from)] = {true, true, m.state == imc::EntityState::State::FAILURE};
-  const bool all =
-      std::all_of(leaks_.begin(), leaks_.end(), [](const auto& each) { return !each.known || each.reported; });
-  tasks::Reading& leak = in.instruments.renew().leak;
-  leak.value = std::any_of(leaks_.begin(), leaks_.end(), [](const auto& each) { return each.failed; }) ? 1 : 0;
-  if (!all) return;
-  leak.count = std::max<std::int64_t>(leak.count, 0) + 1;
-  for (LeakDetector& each : leaks_) each.reported = false;
+  for (std::size_t k = 0; k < leaks_.size(); ++k)
+    if (is(parameters_.*leak_parameters[k], from))
+      leaks_[k].note(Entities::sender_of(from), m.state == imc::EntityState::State::FAILURE,
+                     in.instruments.renew().*tasks::leak_readings[k]);
 }
 
 // offsets from the origin along meridian and parallel, the shorter way around the Earth

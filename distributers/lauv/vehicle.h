@@ -9,6 +9,7 @@
 
 #include "distributers/interfaces/distributer.h"
 #include "distributers/lauv/entities.h"
+#include "distributers/lauv/leak_sensor.h"
 #include "distributers/messages/imc.h"
 #include "distributers/messages/imc_announce.h"
 #include "graph/math/geometry.h"
@@ -35,10 +36,14 @@ struct LauvInstrument {
   }
 };
 
-/// Labels are DUNE's.
+/// Labels of altimeter and leak sensors are DUNE's, where each leak sensor is any, and those of the hull's temperatures
+/// are of our own submarine.
 struct LauvVehicleParameters {
   LauvInstrument depth{}, pressure{}, attitude{}, rates{}, forces{}, heading{}, velocity{}, rpm{}, place{},
-      altitude{.entity = "Altimeter*"}, conductivity{}, water_temperature{}, leak{.entity = "Leak*"}, voltage{},
+      altitude{.entity = "Altimeter*"}, conductivity{}, water_temperature{}, leak{.entity = "Leak*"},
+      leak1{.entity = "Leak*"}, leak2{.entity = "Leak*"}, leak3{.entity = "Leak*"},
+      hull_temperature{.entity = "Hull Temperature 0"}, hull_temperature1{.entity = "Hull Temperature 1"},
+      hull_temperature2{.entity = "Hull Temperature 2"}, hull_temperature3{.entity = "Hull Temperature 3"}, voltage{},
       current{}, ranges{}, servos{};
   bool gravity = true;
   double latitude = 41.1850 * degree;
@@ -53,8 +58,14 @@ struct LauvVehicleParameters {
         field<&P::velocity>("", "WaterVelocity"), field<&P::rpm>("", "Rpm"), field<&P::place>("", "GpsFix"),
         field<&P::altitude>("", "Distance, downward"), field<&P::conductivity>("", "Conductivity"),
         field<&P::water_temperature>("", "Temperature"), field<&P::leak>("", "EntityState: each in FAILURE is a leak"),
-        field<&P::voltage>("", "Voltage"), field<&P::current>("", "Current"), field<&P::ranges>("", "LblRange"),
-        field<&P::servos>("", "ServoPosition"),
+        field<&P::leak1>("", "likewise, of the second leak sensor"),
+        field<&P::leak2>("", "likewise, of the third leak sensor"),
+        field<&P::leak3>("", "likewise, of the fourth leak sensor"),
+        field<&P::hull_temperature>("", "Temperature of an entity that is this one: no other instrument's"),
+        field<&P::hull_temperature1>("", "likewise, of the second sensor"),
+        field<&P::hull_temperature2>("", "likewise, of the third sensor"),
+        field<&P::hull_temperature3>("", "likewise, of the fourth sensor"), field<&P::voltage>("", "Voltage"),
+        field<&P::current>("", "Current"), field<&P::ranges>("", "LblRange"), field<&P::servos>("", "ServoPosition"),
         field<&P::gravity>("", "an entity's Acceleration is what a mass at rest feels: less gravity"),
         field<&P::latitude>("rad", "of the origin, WGS-84, unless the first fix is 100 km from it: then that"),
         field<&P::longitude>("rad", "of the origin"));
@@ -157,14 +168,6 @@ class LauvVehicle {
   bool steers_itself() const;                             // or may, as it has not said yet
   bool all_finite(std::initializer_list<double> values);  // else that is counted
 
-  // An entity that may be a leak detector.
-  struct LeakDetector {
-    bool known = false;
-    bool reported = false;  // since the last reading that counted
-    bool failed = false;
-    void serialize(Archive& archive) { archive(known, reported, failed); }
-  };
-
   struct Beacon {
     bool known = false;
     double latitude = 0, longitude = 0, depth = 0;
@@ -173,7 +176,7 @@ class LauvVehicle {
 
   LauvVehicleParameters parameters_;
   Entities entities_;
-  std::array<LeakDetector, 256> leaks_{};
+  std::array<LeakSensor, 4> leaks_{};
   bool label_lacks_ = false;
   std::optional<Duration> asked_;
   std::uint64_t non_finite_inputs_ = 0;

@@ -27,7 +27,11 @@ class Putter : public messages::Receiver {
  public:
   Putter(const messages::MessageSet& set, FrameStream& stream) : set_(set), header_(*set.header), stream_(stream) {}
   void receive(messages::MessageRef message) override {
-    if (write_packet(header_, message, set_.order, packet_)) stream_.put(FrameKind::message, packet_);
+    // which entity sent it
+    const messages::MessageRef its_own{set_.header, message.header};
+    const bool has_own = message.header != nullptr;
+    if (write_packet(has_own ? its_own : header_, message, set_.order, packet_))
+      stream_.put(FrameKind::message, packet_);
   }
 
  private:

@@ -74,7 +74,7 @@ void FinAllocator::run(const Tick&, const In& in, Out& out) {
 }
 
 void LauvReport::run(const Tick&, const In& in, Out& out) {
-  out.report = {in.motion.z, in.motion.theta, in.motion.psi, in.motion.u, in.condition.alarm};
+  out.report = {in.motion.z, in.motion.theta, in.motion.psi, in.motion.u, in.condition.alarm, in.condition.fins};
 }
 
 void LauvForward::run(const Tick&, const In& in, Out& out) { out = {in.motion, in.actuation}; }

@@ -172,7 +172,8 @@ struct FinAllocator {
 };
 
 struct LauvReport {
-  static constexpr std::string_view summary = "reports depth, pitch, heading, speed and alarm to the operator";
+  static constexpr std::string_view summary =
+      "reports depth, pitch, heading, speed, alarm and whether fins are checked to the operator";
   struct In {
     Motion motion{};
     Condition condition{};

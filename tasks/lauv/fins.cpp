@@ -11,17 +11,22 @@ namespace {
 
 using State = FinWatch::State;
 
+// From when one has reported each that is fitted has its time.
+bool is_any_heard(const Servos& servos) {
+  return std::any_of(servos.fins.begin(), servos.fins.end(), [](const ServoReading& servo) { return servo.count > 0; });
+}
+
 void look(const FinWatch::Param& p, std::size_t i, const ServoReading& servo, double dt, State& state) {
   FinState& fin = state.fins.states[i];
-  if (servo.count < 1 || fin == FinState::stuck) return;
-  const bool fresh = servo.count > state.counts[i];
+  if (servo.count < 0 || fin == FinState::stuck) return;
+  const bool fresh = servo.count > state.counts[i], first = fresh && state.counts[i] == 0;
   state.counts[i] = servo.count;
   state.silences[i] = fresh ? 0 : state.silences[i] + dt;
   if (state.silences[i] > p.silence) fin = FinState::silent;
   if (!fresh) return;
   const double commanded = limited(servo.commanded, max_fin_angle);
   double& expected = state.expected[i];
-  if (fin == FinState::unknown) expected = servo.angle;
+  if (first) expected = servo.angle;
   fin = FinState::follows;
   expected += limited(commanded - expected, p.servo_rate * dt);
   const bool wrong =
@@ -60,7 +65,8 @@ constexpr std::array<double, 4> roll_sides{-1, 1, -1, 1};
 
 void FinWatch::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
   if (in.contact.stops != state.stops) state = State{.stops = in.contact.stops};
-  for (std::size_t i = 0; i < in.servos.fins.size(); ++i) look(p, i, in.servos.fins[i], seconds(tick.period), state);
+  if (is_any_heard(in.servos))
+    for (std::size_t i = 0; i < in.servos.fins.size(); ++i) look(p, i, in.servos.fins[i], seconds(tick.period), state);
   look(p, in.servos.propeller, seconds(tick.period), state);
   out.fins = state.fins;
 }

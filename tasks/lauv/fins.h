@@ -14,9 +14,10 @@ namespace jarol::tasks {
 
 /// A sound servo is between where it is sent and where one that turns at `servo_rate` would be by now. One that is
 /// further out by more than `error` is wrong; wrong for `error_time` longer than it was right, it is stuck, until the
-/// operator demands a stop: then it is tried anew. A servo that has never reported is not checked. A propeller is stuck
-/// that turns by more than `propeller_error` of its full speed otherwise than it is sent, now or at the reading before,
-/// for `propeller_time`: longer than the supervisor takes to find that its speed is reported wrong.
+/// operator demands a stop: then it is tried anew. A servo that is fitted is silent if it reports no more, or nothing
+/// since another did; of a vehicle that reports none no fin is checked. A propeller is stuck that turns by more than
+/// `propeller_error` of its full speed otherwise than it is sent, now or at the reading before, for `propeller_time`:
+/// longer than the supervisor takes to find that its speed is reported wrong.
 struct FinWatch {
   static constexpr std::string_view summary = "finds fins and a propeller that do not do what they are sent";
   struct Param {
@@ -33,7 +34,7 @@ struct FinWatch {
           field<&P::error>("rad", "greatest difference of a servo and what its rate explains").in(0, max_fin_angle),
           field<&P::error_time>("s", "how long a greater one has to last").in(0, 60),
           field<&P::servo_rate>("rad/s", "at which a sound servo turns at least").in(0.1, 100),
-          field<&P::silence>("s", "a servo that has reported, and then does not for so long, is silent").in(0, 3600),
+          field<&P::silence>("s", "a servo that is fitted and reports nothing for so long is silent").in(0, 3600),
           field<&P::full_speed>("rpm", "of the propeller, at full thrust").in(1, 100000),
           field<&P::propeller_error>("", "part of that by which it may differ from what it is sent").in(0, 2),
           field<&P::propeller_time>("s", "how long it has to differ by more").in(0, 3600));

@@ -22,6 +22,7 @@ constexpr double floor_time = 30;       // s, for the sea floor to rise or fall
 constexpr double surface_depth = 0.15;  // m, at which GPS has to work; a little deeper it does not
 constexpr double slowest = 0.5;         // m/s, at which the fins still level it off
 constexpr double heave_time = 2;        // s, for waves and noise to cancel out
+constexpr std::array leak_alarms{Alarm::leak, Alarm::leak1, Alarm::leak2, Alarm::leak3};  // by their order
 
 // By the gauge, or by the pressure where no gauge is fitted.
 double depth_of(const Instruments& i) {
@@ -46,6 +47,9 @@ Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
                              {i.conductivity.count, Alarm::ctd},
                              {i.water_temperature.count, Alarm::ctd},
                              {i.leak.count, Alarm::leak},
+                             {i.leak1.count, Alarm::leak1},
+                             {i.leak2.count, Alarm::leak2},
+                             {i.leak3.count, Alarm::leak3},
                              {i.voltage.count, Alarm::battery},
                              {i.current.count, Alarm::battery}};
   if (!state.heard) {
@@ -71,6 +75,14 @@ Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
   state.fixes = i.place.count;
   if (found == Alarm::none && state.since_fix > p.gps_timeout) found = Alarm::gps;
   return found == Alarm::none || state.heard ? found : Alarm::no_vehicle;
+}
+
+// The sensor with water that is the alarm now, else the first with any.
+Alarm find_leak(const Instruments& i, Alarm now) {
+  Alarm found = Alarm::none;
+  for (std::size_t k = hull_sensors; k-- > 0;)
+    if ((i.*leak_readings[k]).value > 0.5 && (found == Alarm::none || found != now)) found = leak_alarms[k];
+  return found;
 }
 
 // Since any instrument was heard last.
@@ -158,6 +170,13 @@ Alarm find_actuator(const Param& p, const LauvSupervisor::In& in, State& state) 
   return is_low(p, voltage) ? Alarm::voltage_limit : found;
 }
 
+FinCheck check_fins(const Param& p, const FinCondition& fins, double dt, State& state) {
+  const bool none =
+      std::all_of(fins.states.begin(), fins.states.end(), [](FinState fin) { return fin == FinState::unknown; });
+  state.servos_silent_for = none && state.heard ? state.servos_silent_for + dt : 0;
+  return state.servos_silent_for > p.sensor_timeout ? FinCheck::unchecked : FinCheck::checked;
+}
+
 double calc_heave(const Instruments& i) {
   return sinking_across(i.attitude.x, i.attitude.y, i.velocity.y, i.velocity.z);
 }
@@ -212,6 +231,9 @@ bool steerable(Alarm alarm) {
     case Alarm::depth_limit:
     case Alarm::altitude_limit:
     case Alarm::leak:
+    case Alarm::leak1:
+    case Alarm::leak2:
+    case Alarm::leak3:
     case Alarm::depth_gauge:
     case Alarm::heading:
     case Alarm::altimeter:
@@ -232,12 +254,13 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
   Alarm lost = find_lost(p, in.instruments, dt, state);
   const Alarm liar = find_liar(p, in.instruments, dt, state);
   note_heave(in.instruments, dt, state);
+  const FinCheck fins = check_fins(p, in.fins, dt, state);
   // old readings do not fit each other either
   const bool is_wrong = lost != Alarm::none || liar != Alarm::none;
   if (state.heard && is_wrong && calc_silence(state) > p.vehicle_timeout) lost = Alarm::vehicle_lost;
   const bool stopped = in.contact.stops != state.stops;
   state.stops = in.contact.stops;
-  const Alarm leak = in.instruments.leak.value > 0.5 ? Alarm::leak : Alarm::none;
+  const Alarm leak = find_leak(in.instruments, state.alarm);
   if (state.alarm == Alarm::none || stopped) {
     Alarm found = Alarm::none;
     for (const Alarm next : {leak, lost, liar, find_actuator(p, in, state), find_exceeded(p, in, state)})
@@ -250,7 +273,7 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
       state.surfaced = false;
     }
     if (state.alarm == Alarm::none) {
-      out = {in.setpoint, {}};
+      out = {in.setpoint, {.fins = fins}};
       return;
     }
   }
@@ -266,7 +289,7 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
   const bool climbs = steerable(state.alarm) && !state.surfaced;
   // a depth out of reach: nose up as far as the depth control goes, whatever the gauge reads
   out.setpoint = {climbs ? -1000.0 : 0.0, in.setpoint.heading, climbs ? p.climb_speed : 0.0};
-  out.condition.alarm = state.alarm;
+  out.condition = {state.alarm, fins};
 }
 
 template void add_task<LauvSupervisor>(Registry&);

@@ -23,7 +23,7 @@ namespace jarol::tasks {
 /// sinks, with propeller off, by buoyancy. It stays alarmed, whatever becomes of the cause, until the operator demands
 /// a stop when there is none any more: then it is a vehicle at rest, to be commanded anew. Water in the hull takes the
 /// place of any other cause. A vehicle of which nothing was heard since the start is not lost but waited for, with
-/// propeller off.
+/// propeller off. One whose servos report nothing dives all the same, and the condition says that no fin is checked.
 struct LauvSupervisor {
   static constexpr std::string_view summary = "passes the operator's setpoint on, or brings the submarine up";
   struct Param {
@@ -100,9 +100,10 @@ struct LauvSupervisor {
     double depth_at_alarm = 0;
     std::uint32_t stops = 0;
     bool surfaced = false;
-    std::array<std::int64_t, 14> counts{};
-    std::array<double, 14> silences{};
+    std::array<std::int64_t, 17> counts{};
+    std::array<double, 17> silences{};
     double since_fix = 0;
+    double servos_silent_for = 0;
     std::int64_t fixes = 0;
     std::array<double, 7> wrong_for{};
     bool attitude_started = false, speed_started = false, floor_started = false, heave_started = false;
@@ -115,7 +116,8 @@ struct LauvSupervisor {
           field<&S::fixes_at_alarm>(), field<&S::depth_at_alarm>("m", "by the gauge"),
           field<&S::stops>("", "of the operator, up to now"), field<&S::surfaced>(),
           field<&S::counts>("", "of each instrument"), field<&S::silences>("s", "of each instrument"),
-          field<&S::since_fix>("s", "at the surface"), field<&S::fixes>(),
+          field<&S::since_fix>("s", "at the surface"),
+          field<&S::servos_silent_for>("s", "none has reported, though the vehicle has"), field<&S::fixes>(),
           field<&S::wrong_for>("s", "each difference, for so long"), field<&S::attitude_started>(),
           field<&S::speed_started>(), field<&S::floor_started>(), field<&S::heave_started>(),
           field<&S::theta>("rad", "that the rates add up to"), field<&S::psi>("rad", "that the rates add up to"),

@@ -33,12 +33,15 @@ enum class Alarm : std::uint8_t {
   top_fin,
   propeller,
   no_vehicle,
-  vehicle_lost
+  vehicle_lost,
+  leak1,
+  leak2,
+  leak3
 };
 
 constexpr auto enumerators(Alarm) {
   using enum Alarm;
-  return std::array<Enumerator<Alarm>, 23>{
+  return std::array<Enumerator<Alarm>, 26>{
       {{"none", none},
        {"operator_lost", operator_lost, "it comes up, as the operator is silent"},
        {"depth_limit", depth_limit, "it comes up, as it is deeper than the limit, or would be before it levels off"},
@@ -46,7 +49,7 @@ constexpr auto enumerators(Alarm) {
         "it comes up, as it is too close to the sea floor, or would be before it levels off"},
        {"pitch_limit", pitch_limit, "it comes up, as its pitch is beyond the limit"},
        {"voltage_limit", voltage_limit, "it comes up, as the battery's voltage is below the limit"},
-       {"leak", leak, "it comes up, as there is water in the hull, or the leak detector is silent"},
+       {"leak", leak, "it comes up, as there is water at the first leak sensor, or that is silent"},
        {"depth_gauge", depth_gauge, "it comes up, as the depth gauge is silent or wrong"},
        {"heading", heading, "it comes up, as the compass is silent or wrong"},
        {"attitude", attitude, "it comes up, as the IMU's attitude or rates are silent or wrong"},
@@ -62,13 +65,29 @@ constexpr auto enumerators(Alarm) {
        {"top_fin", top_fin, "it comes up, as the top rudder is stuck or its servo silent"},
        {"propeller", propeller, "it comes up, as the propeller does not turn as it is sent"},
        {"no_vehicle", no_vehicle, "nothing was heard of the vehicle yet; it begins when that is"},
-       {"vehicle_lost", vehicle_lost, "it is to come up, as nothing arrives from the vehicle"}}};
+       {"vehicle_lost", vehicle_lost, "it is to come up, as nothing arrives from the vehicle"},
+       {"leak1", leak1, "it comes up, as there is water at the second leak sensor, or that is silent"},
+       {"leak2", leak2, "it comes up, as there is water at the third leak sensor, or that is silent"},
+       {"leak3", leak3, "it comes up, as there is water at the fourth leak sensor, or that is silent"}}};
+}
+
+/// Whether anything finds a fin that sticks.
+enum class FinCheck : std::uint8_t { checked, unchecked };
+
+constexpr auto enumerators(FinCheck) {
+  return std::array<Enumerator<FinCheck>, 2>{
+      {{"checked", FinCheck::checked},
+       {"unchecked", FinCheck::unchecked, "no fin is checked, as no servo reports where it is"}}};
 }
 
 struct Condition {
   Alarm alarm = Alarm::none;
+  FinCheck fins = FinCheck::checked;
 
-  static constexpr auto fields() { return describe(field<&Condition::alarm>("", "why it comes up, or none")); }
+  static constexpr auto fields() {
+    return describe(field<&Condition::alarm>("", "why it comes up, or none"),
+                    field<&Condition::fins>("", "by what their servos report"));
+  }
 };
 
 }  // namespace jarol::tasks

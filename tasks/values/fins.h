@@ -51,7 +51,7 @@ constexpr auto enumerators(FinState) {
   return std::array<Enumerator<FinState>, 4>{{{"unknown", unknown, "it has not reported yet, or never does"},
                                               {"follows", follows, "it goes where it is sent"},
                                               {"stuck", stuck, "it does not go where it is sent"},
-                                              {"silent", silent, "it reports no more"}}};
+                                              {"silent", silent, "it reports nothing, or no more"}}};
 }
 
 struct FinCondition {

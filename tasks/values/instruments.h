@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "graph/values/describe.h"
@@ -58,7 +59,8 @@ struct Instruments {
   Reading altitude{};
   Reading conductivity{};
   Reading water_temperature{};
-  Reading leak{};
+  Reading leak{}, leak1{}, leak2{}, leak3{};
+  Reading hull_temperature{}, hull_temperature1{}, hull_temperature2{}, hull_temperature3{};
   Reading voltage{};
   Reading current{};
   std::array<BeaconReading, 2> beacons{};
@@ -74,11 +76,25 @@ struct Instruments {
         field<&I::velocity>("", "m/s through the water, body axes"), field<&I::rpm>("", "rpm, of the propeller"),
         field<&I::place>("", "m north and east of the origin, of GPS"), field<&I::altitude>("", "m over the sea floor"),
         field<&I::conductivity>("", "S/m, of the CTD"), field<&I::water_temperature>("", "degC, of the CTD"),
-        field<&I::leak>("", "1 for water in the hull"), field<&I::voltage>("", "V, of the battery"),
+        field<&I::leak>("", "1 for water in the hull, of the first leak sensor"),
+        field<&I::leak1>("", "of the second leak sensor"), field<&I::leak2>("", "of the third leak sensor"),
+        field<&I::leak3>("", "of the fourth leak sensor"),
+        field<&I::hull_temperature>("", "degC, inside the hull, of the first sensor"),
+        field<&I::hull_temperature1>("", "degC, of the second sensor"),
+        field<&I::hull_temperature2>("", "degC, of the third sensor"),
+        field<&I::hull_temperature3>("", "degC, of the fourth sensor"), field<&I::voltage>("", "V, of the battery"),
         field<&I::current>("", "A, from the battery"), field<&I::beacons>("", "acoustic transponders"),
         field<&I::latitude>("rad", "of the origin, WGS-84"), field<&I::longitude>("rad", "of the origin"));
   }
 };
+
+/// As many leak sensors and as many of the hull's temperatures, in their order.
+inline constexpr std::size_t hull_sensors = 4;
+inline constexpr std::array<Reading Instruments::*, hull_sensors> leak_readings{
+    &Instruments::leak, &Instruments::leak1, &Instruments::leak2, &Instruments::leak3};
+inline constexpr std::array<Reading Instruments::*, hull_sensors> hull_readings{
+    &Instruments::hull_temperature, &Instruments::hull_temperature1, &Instruments::hull_temperature2,
+    &Instruments::hull_temperature3};
 
 /// The line to the operator.
 struct Contact {

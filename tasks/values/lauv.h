@@ -66,12 +66,14 @@ struct VehicleReport {
   double heading = 0;
   double speed = 0;
   Alarm alarm = Alarm::none;
+  FinCheck fins = FinCheck::checked;
 
   static constexpr auto fields() {
     using S = VehicleReport;
     return describe(field<&S::depth>("m", "below the surface"), field<&S::pitch>("rad", "nose up"),
                     field<&S::heading>("rad", "clockwise from north"), field<&S::speed>("m/s", "through the water"),
-                    field<&S::alarm>("", "why it comes up, or none"));
+                    field<&S::alarm>("", "why it comes up, or none"),
+                    field<&S::fins>("", "by what their servos report"));
   }
 };
 

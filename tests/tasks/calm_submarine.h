@@ -21,7 +21,7 @@ inline tasks::LauvSupervisor::In calm_submarine(std::int64_t k) {
   i.altitude = {45, k};
   i.conductivity = {4.2, k};
   i.water_temperature = {14, k};
-  i.leak = {0, k};
+  for (const auto leak : tasks::leak_readings) i.*leak = {0, k};
   i.voltage = {25, k};
   i.current = {1, k};
   return in;

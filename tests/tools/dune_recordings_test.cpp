@@ -111,8 +111,11 @@ TEST_SUITE("tools/dune_recordings") {
     CHECK(last.water_temperature.value < 15);
     CHECK(last.forces.z == doctest::Approx(-9.81).scale(0).epsilon(0.05));
     for (const auto count : {last.rates.count, last.heading.count, last.velocity.count, last.rpm.count,
-                             last.place.count, last.conductivity.count, last.leak.count})
+                             last.place.count, last.conductivity.count, last.leak.count, last.leak1.count})
       CHECK(count > 0);
+    CHECK(last.leak2.count == -1);
+    CHECK(last.leak3.count == -1);
+    CHECK(last.hull_temperature.count == -1);
     CHECK(last.voltage.count == -1);
     CHECK(last.current.count == -1);
   }
@@ -135,13 +138,13 @@ TEST_SUITE("tools/dune_recordings") {
     CHECK(leak.alarmed_at < first + 0.1);
     bool wet = false;
     for (const Instruments& i : leak.seen) {
-      CHECK((!wet || i.leak.value == 1));
+      CHECK((!wet || (i.leak.value == 1 && i.leak1.value == 1)));
       wet = wet || i.leak.value == 1;
     }
     CHECK(wet);
   }
 
-  TEST_CASE("one wet sensor of two is a leak, and one of two that falls silent is a detector lost") {
+  TEST_CASE("one wet sensor of two is a leak, and so is one of two that falls silent, each by its name") {
     Watched leak("dune");
     auto packets = packets_of("tests/data/dune-leak.packets", 15);
     const auto is_of = [](const Packet& packet, std::uint8_t entity) {
@@ -165,17 +168,18 @@ TEST_SUITE("tools/dune_recordings") {
         if (wet) packet.bytes = dry;
       }
       leak.run(packets);
-      CHECK(leak.alarms == std::set<Alarm>{Alarm::leak});
+      CHECK(leak.alarms == std::set<Alarm>{Alarm::leak1});
+      CHECK(leak.seen.back().leak.value == 0);
+      CHECK(leak.seen.back().leak1.value == 1);
     }
     SUBCASE("silent") {
-      // before any water, and nothing from the tail's sensor after 16.5 s: it reports twice at 16.03 s, the nose's as
-      // often and the third of the vehicle's detectors once, so that all have reported last at 17.03 s
+      // before any water, and nothing from the tail's sensor after 16.5 s: it reports last at 16.03 s
       std::erase_if(packets, [&](const Packet& p) { return p.seconds > 18.5 || (p.seconds > 16.5 && is_of(p, tail)); });
       leak.supervisor.sensor_timeout = 1.2;
       leak.run(packets);
-      CHECK(leak.alarms == std::set<Alarm>{Alarm::leak});
-      CHECK(leak.alarmed_at > 18.2);
-      CHECK(leak.alarmed_at < 18.4);
+      CHECK(leak.alarms == std::set<Alarm>{Alarm::leak1});
+      CHECK(leak.alarmed_at > 17.2);
+      CHECK(leak.alarmed_at < 17.4);
     }
   }
 

@@ -125,6 +125,34 @@ TEST_SUITE("tools/surfacing") {
     check_surfaces(done, Alarm::gps, 6);
   }
 
+  TEST_CASE(
+      "each leak sensor that sees water or is silent ends the dive under its own name, one that sticks does not") {
+    const auto alarm_of = [](const std::string& sensor, const std::string& failure) {
+      return dive("specs/exolauv.yaml",
+                  {"distributers.dune.link.parameters={dynamics: rigid, sensors: {" + sensor + ": {failure: {at: 3, " +
+                   failure + "}}}}"},
+                  0, 7s)
+          .alarm;
+    };
+    const std::pair<std::string, Alarm> sensors[] = {
+        {"leak", Alarm::leak}, {"leak1", Alarm::leak1}, {"leak2", Alarm::leak2}, {"leak3", Alarm::leak3}};
+    for (const auto& [sensor, alarm] : sensors) {
+      CAPTURE(sensor);
+      CHECK(static_cast<int>(alarm_of(sensor, "kind: biased, by: 1")) == static_cast<int>(alarm));
+      CHECK(static_cast<int>(alarm_of(sensor, "kind: lost")) == static_cast<int>(alarm));
+      CHECK(alarm_of(sensor, "kind: stuck") == Alarm::none);
+    }
+    CHECK(alarm_of("hull_temperature2", "kind: lost") == Alarm::none);
+  }
+
+  TEST_CASE("water that the first leak sensor does not see another does") {
+    CHECK(dive("specs/exolauv.yaml",
+               {"distributers.dune.link.parameters={dynamics: rigid, leak_at: 4 s, "
+                "sensors: {leak: {failure: {kind: stuck, at: 2}}}}"},
+               0, 5s)
+              .alarm == Alarm::leak1);
+  }
+
   TEST_CASE("water in the hull ends the dive") { check_surfaces(dive_with("leak_at: 30s"), Alarm::leak, 32); }
 
   TEST_CASE("a propeller that is lost, or can't be stopped, ends the dive, and the operator is told") {

@@ -97,20 +97,42 @@ struct SubmarineReadings {
         field<&S::v>("m/s", "of the speed log, to the right"), field<&S::w>("m/s", "of the speed log, down"),
         field<&S::rpm>("rpm", "speed of the propeller"), field<&S::gps_north>("m", "north of the origin"),
         field<&S::gps_east>("m", "east of the origin"), field<&S::altitude>("m", "over the sea floor"),
-        field<&S::leak>("", "1 for water in the hull"), field<&S::hull_temperature>("degC", "inside the hull"),
+        field<&S::leak>("", "1 for water in the hull, of the first leak sensor"),
+        field<&S::hull_temperature>("degC", "inside the hull, of the first sensor"),
         field<&S::voltage>("V", "of the battery"), field<&S::current>("A", "from the battery"),
         field<&S::range_first>("m", "to the first transponder"), field<&S::range_second>("m", "to the second one"));
+  }
+};
+
+/// Those of the hull of which there are four, but the first.
+struct SubmarineHullReadings {
+  double leak1 = SubmarineReadings::unknown;
+  double leak2 = SubmarineReadings::unknown;
+  double leak3 = SubmarineReadings::unknown;
+  double hull_temperature1 = SubmarineReadings::unknown;
+  double hull_temperature2 = SubmarineReadings::unknown;
+  double hull_temperature3 = SubmarineReadings::unknown;
+
+  static constexpr auto fields() {
+    using S = SubmarineHullReadings;
+    return describe(field<&S::leak1>("", "1 for water in the hull, of the second leak sensor"),
+                    field<&S::leak2>("", "of the third one"), field<&S::leak3>("", "of the fourth one"),
+                    field<&S::hull_temperature1>("degC", "inside the hull, of the second sensor"),
+                    field<&S::hull_temperature2>("degC", "of the third one"),
+                    field<&S::hull_temperature3>("degC", "of the fourth one"));
   }
 };
 
 struct SubmarineOutputs {
   SubmarineActuators actuators{};
   SubmarineReadings sensors{};
+  SubmarineHullReadings hull{};
 
   static constexpr auto fields() {
     using S = SubmarineOutputs;
     return describe(field<&S::actuators>("", "what the actuators do"),
-                    field<&S::sensors>("", "what the sensors reported last"));
+                    field<&S::sensors>("", "what the sensors reported last"),
+                    field<&S::hull>("", "likewise, the further ones of the hull"));
   }
 };
 

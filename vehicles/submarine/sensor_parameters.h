@@ -117,28 +117,31 @@ struct SubmarineSensorParameters {
   SensorOf<PositionSensor> gps{};
   SensorOf<RangeSensor> range{};
   SensorOf<AltitudeSensor> altitude{};
-  SensorOf<LeakSensor> leak{};
-  SensorOf<SlowTemperatureSensor> hull_temperature{};
+  SensorOf<LeakSensor> leak{}, leak1{}, leak2{}, leak3{};
+  SensorOf<SlowTemperatureSensor> hull_temperature{}, hull_temperature1{}, hull_temperature2{}, hull_temperature3{};
   SensorOf<VoltageSensor> voltage{};
   SensorOf<CurrentSensor> current{};
   SensorOf<ServoSensor> servos{};
 
   static constexpr auto fields() {
     using S = SubmarineSensorParameters;
-    return describe(field<&S::depth>("", "depth, from a gauge of its own"),
-                    field<&S::pressure>("", "pressure, of the CTD"), field<&S::conductivity>("", "of the CTD"),
-                    field<&S::water_temperature>("", "of the CTD"),
-                    field<&S::imu_attitude>("", "roll, pitch and yaw of the IMU (3DM-GX1)"),
-                    field<&S::imu_rates>("", "body rates of the IMU"),
-                    field<&S::imu_forces>("", "specific forces of the IMU, along the body's axes"),
-                    field<&S::compass>("", "heading"),
-                    field<&S::speed_log>("", "velocity through the water, along the body's axes"),
-                    field<&S::rpm>("", "speed of the propeller"), field<&S::gps>("", "place, at the surface only"),
-                    field<&S::range>("", "to each acoustic transponder within reach"),
-                    field<&S::altitude>("", "over the sea floor, down the body's axis, no more than 100 m"),
-                    field<&S::leak>("", "1 for water in the hull"), field<&S::hull_temperature>("", "inside the hull"),
-                    field<&S::voltage>("", "of the battery"), field<&S::current>("", "from the battery"),
-                    field<&S::servos>("", "angle of each fin, at its servo"));
+    return describe(
+        field<&S::depth>("", "depth, from a gauge of its own"), field<&S::pressure>("", "pressure, of the CTD"),
+        field<&S::conductivity>("", "of the CTD"), field<&S::water_temperature>("", "of the CTD"),
+        field<&S::imu_attitude>("", "roll, pitch and yaw of the IMU (3DM-GX1)"),
+        field<&S::imu_rates>("", "body rates of the IMU"),
+        field<&S::imu_forces>("", "specific forces of the IMU, along the body's axes"),
+        field<&S::compass>("", "heading"),
+        field<&S::speed_log>("", "velocity through the water, along the body's axes"),
+        field<&S::rpm>("", "speed of the propeller"), field<&S::gps>("", "place, at the surface only"),
+        field<&S::range>("", "to each acoustic transponder within reach"),
+        field<&S::altitude>("", "over the sea floor, down the body's axis, no more than 100 m"),
+        field<&S::leak>("", "1 for water in the hull: the first of four"), field<&S::leak1>("", "the second of them"),
+        field<&S::leak2>("", "the third of them"), field<&S::leak3>("", "the fourth of them"),
+        field<&S::hull_temperature>("", "inside the hull: the first of four"),
+        field<&S::hull_temperature1>("", "the second of them"), field<&S::hull_temperature2>("", "the third of them"),
+        field<&S::hull_temperature3>("", "the fourth of them"), field<&S::voltage>("", "of the battery"),
+        field<&S::current>("", "from the battery"), field<&S::servos>("", "angle of each fin, at its servo"));
   }
 };
 

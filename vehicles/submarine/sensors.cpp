@@ -1,5 +1,7 @@
 #include "vehicles/submarine/sensors.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,24 +19,15 @@ namespace imc = messages::imc;
 constexpr double air_pressure = 1013.25;                       // hPa
 constexpr double longest_range = 100.0, shortest_range = 0.1;  // m, of the altimeter
 
-template <class Message>
-void report_value(messages::Receiver& receiver, const Sensor& sensor) {
-  if (!sensor.reported()) return;
-  Message message;
-  message.value = static_cast<decltype(message.value)>(sensor.value());
-  receiver.receive(messages::refer_to(message));
+messages::Message report_entity_labels(std::uint8_t leaks, std::uint8_t hull_temperatures) {
+  imc::EntityList entities;
+  entities.op = imc::EntityList::Op::REPORT;
+  for (std::size_t i = 0; i < 4; ++i) {
+    entities.list += fmt::format("{}Leak Sensor {}={}", i == 0 ? "" : ";", i, leaks + i);
+    entities.list += fmt::format(";Hull Temperature {}={}", i, hull_temperatures + i);
+  }
+  return messages::Message(messages::refer_to(entities));
 }
-
-template <class Message>
-void report_vector(messages::Receiver& receiver, const Sensor& sensor, Message message) {
-  if (!sensor.reported()) return;
-  message.x = sensor.values()[0];
-  message.y = sensor.values()[1];
-  message.z = sensor.values()[2];
-  receiver.receive(messages::refer_to(message));
-}
-
-constexpr std::int64_t beacons_period = 1000;  // steps between two messages that report where they lie
 
 messages::Message report_beacons_of(const SeaParameters& sea) {
   const EarthRadii radii = earth_radii(sea.latitude);
@@ -74,18 +67,23 @@ SubmarineSensors::SubmarineSensors(const SubmarineSensorParameters& p, const Sea
       rpm_(p.rpm, "rpm", seed),
       gps_(p.gps, "gps", seed, 2),
       altitude_(p.altitude, "altitude", seed),
-      leak_(p.leak, "leak", seed),
-      hull_temperature_(p.hull_temperature, "hull_temperature", seed),
       voltage_(p.voltage, "voltage", seed),
       current_(p.current, "current", seed),
+      leaks_{Sensor(p.leak, "leak", seed), Sensor(p.leak1, "leak1", seed), Sensor(p.leak2, "leak2", seed),
+             Sensor(p.leak3, "leak3", seed)},
+      hull_temperatures_{Sensor(p.hull_temperature, "hull_temperature", seed),
+                         Sensor(p.hull_temperature1, "hull_temperature1", seed),
+                         Sensor(p.hull_temperature2, "hull_temperature2", seed),
+                         Sensor(p.hull_temperature3, "hull_temperature3", seed)},
       ranges_{Sensor(p.range, "range_first", seed), Sensor(p.range, "range_second", seed)},
       servos_{Sensor(p.servos, "servo0", seed), Sensor(p.servos, "servo1", seed), Sensor(p.servos, "servo2", seed),
               Sensor(p.servos, "servo3", seed)},
+      entities_(report_entity_labels(leak_entity, hull_temperature_entity)),
       beacons_(report_beacons_of(sea)) {}
 
 void SubmarineSensors::serialize(Archive& archive) {
   archive(seconds_, depth_, pressure_, conductivity_cell_, water_temperature_, attitude_, rates_, forces_, compass_,
-          speed_, rpm_, gps_, altitude_, leak_, hull_temperature_, voltage_, current_, ranges_, servos_, step_,
+          speed_, rpm_, gps_, altitude_, leaks_, hull_temperatures_, voltage_, current_, ranges_, servos_, step_,
           readings_);
 }
 
@@ -130,8 +128,8 @@ void SubmarineSensors::step(std::int64_t step, const SubmarineScene& scene) {
     ranges_[k].step(step, away < sea_.beacons.reach ? std::optional(Values{away}) : std::nullopt);
   }
 
-  leak_.step(step, Values{scene.leak ? 1.0 : 0.0});
-  hull_temperature_.step(step, Values{sea_.temperature + scene.hull_warmth});
+  for (Sensor& leak : leaks_) leak.step(step, Values{scene.leak ? 1.0 : 0.0});
+  for (Sensor& thermometer : hull_temperatures_) thermometer.step(step, Values{sea_.temperature + scene.hull_warmth});
   voltage_.step(step, Values{scene.voltage});
   current_.step(step, Values{scene.current});
   for (std::size_t i = 0; i < servos_.size(); ++i) servos_[i].step(step, Values{scene.servos[i]});
@@ -164,106 +162,21 @@ void SubmarineSensors::note() {
   r.gps_north = gps_.values()[0];
   r.gps_east = gps_.values()[1];
   r.altitude = altitude_.value();
-  r.leak = leak_.value();
-  r.hull_temperature = hull_temperature_.value();
+  r.leak = leaks_[0].value();
+  r.hull_temperature = hull_temperatures_[0].value();
   r.voltage = voltage_.value();
   r.current = current_.value();
   r.range_first = ranges_[0].value();
   r.range_second = ranges_[1].value();
 }
 
-void SubmarineSensors::report(messages::Receiver& receiver) const {
-  report_motion(receiver);
-  report_servos(receiver);
-  report_water(receiver);
-  report_hull(receiver);
-  report_place(receiver);
-  report_beacons(receiver);
-}
-
-void SubmarineSensors::report_motion(messages::Receiver& receiver) const {
-  // the IMU reports true north, the compass the magnetic one; here they are the same. What a device does not measure is
-  // no number
-  if (attitude_.reported() || compass_.reported()) {
-    constexpr double unknown = SubmarineReadings::unknown;
-    imc::EulerAngles angles;
-    angles.time = seconds_;
-    angles.phi = attitude_.reported() ? readings_.phi : unknown;
-    angles.theta = attitude_.reported() ? readings_.theta : unknown;
-    angles.psi = attitude_.reported() ? readings_.psi : unknown;
-    angles.psi_magnetic = compass_.reported() ? readings_.heading : unknown;
-    receiver.receive(messages::refer_to(angles));
-  }
-  imc::AngularVelocity rates;
-  rates.time = seconds_;
-  report_vector(receiver, rates_, rates);
-  imc::Acceleration force;
-  force.time = seconds_;
-  report_vector(receiver, forces_, force);
-  imc::WaterVelocity velocity;
-  velocity.validity = 7;
-  report_vector(receiver, speed_, velocity);
-  if (rpm_.reported()) {
-    imc::Rpm rpm;
-    rpm.value = static_cast<std::int16_t>(std::lround(std::clamp(rpm_.value(), -32768.0, 32767.0)));
-    receiver.receive(messages::refer_to(rpm));
-  }
-}
-
-void SubmarineSensors::report_servos(messages::Receiver& receiver) const {
-  for (std::uint8_t i = 0; i < servos_.size(); ++i)
-    if (servos_[i].reported())
-      receiver.receive(messages::refer_to(imc::ServoPosition{i, static_cast<float>(servos_[i].value())}));
-}
-
-void SubmarineSensors::report_water(messages::Receiver& receiver) const {
-  report_value<imc::Depth>(receiver, depth_);
-  report_value<imc::Pressure>(receiver, pressure_);
-  report_value<imc::Conductivity>(receiver, conductivity_cell_);
-  report_value<imc::Temperature>(receiver, water_temperature_);
-  if (!conductivity_cell_.reported()) return;
-  imc::Salinity salinity;
-  salinity.value = static_cast<float>(readings_.salinity);
-  receiver.receive(messages::refer_to(salinity));
-  imc::SoundSpeed speed;
-  speed.value = static_cast<float>(readings_.sound_speed);
-  receiver.receive(messages::refer_to(speed));
-}
-
-void SubmarineSensors::report_hull(messages::Receiver& receiver) const {
-  if (leak_.reported()) {
-    imc::EntityState state;
-    state.state = leak_.value() > 0.5 ? imc::EntityState::State::FAILURE : imc::EntityState::State::NORMAL;
-    receiver.receive(messages::refer_to(state));
-  }
-  report_value<imc::Voltage>(receiver, voltage_);
-  report_value<imc::Current>(receiver, current_);
-}
-
-void SubmarineSensors::report_place(messages::Receiver& receiver) const {
-  if (gps_.reported()) {
-    const EarthRadii radii = earth_radii(sea_.latitude);
-    imc::GpsFix fix;
-    fix.validity = imc::GpsFix::Validity::VALID_POS;
-    fix.type = imc::GpsFix::Type::SIMULATION;
-    fix.lat = sea_.latitude + gps_.values()[0] / radii.north;
-    fix.lon = wrapped(sea_.longitude + gps_.values()[1] / radii.east);
-    receiver.receive(messages::refer_to(fix));
-  }
-  if (altitude_.reported()) {
-    imc::Distance distance;
-    distance.validity = imc::Distance::Validity::VALID;
-    distance.value = static_cast<float>(altitude_.value());
-    receiver.receive(messages::refer_to(distance));
-  }
-}
-
-void SubmarineSensors::report_beacons(messages::Receiver& receiver) const {
-  if (sea_.beacons.reach > 0.0 && step_ % beacons_period == 0) receiver.receive(beacons_);
-  for (std::size_t k = 0; k < ranges_.size(); ++k)
-    if (ranges_[k].reported())
-      receiver.receive(messages::refer_to(
-          imc::LblRange{static_cast<std::uint8_t>(k), static_cast<float>(std::max(ranges_[k].value(), 0.0))}));
+SubmarineHullReadings SubmarineSensors::hull_readings() const {
+  return {leaks_[1].value(),
+          leaks_[2].value(),
+          leaks_[3].value(),
+          hull_temperatures_[1].value(),
+          hull_temperatures_[2].value(),
+          hull_temperatures_[3].value()};
 }
 
 }  // namespace jarol::vehicles

@@ -35,6 +35,7 @@ class SubmarineSensors {
   void step(std::int64_t step, const SubmarineScene& scene);
 
   const SubmarineReadings& readings() const { return readings_; }
+  SubmarineHullReadings hull_readings() const;
 
   void serialize(Archive& archive);
 
@@ -42,7 +43,11 @@ class SubmarineSensors {
   void report(messages::Receiver& receiver) const;
 
  private:
+  // of the first; several report the same, and so are entities of their own, where all else comes from none
+  static constexpr std::uint8_t leak_entity = 1, hull_temperature_entity = 5;
+
   void note();
+  void report_entities(messages::Receiver& receiver) const;
   void report_motion(messages::Receiver& receiver) const;
   void report_water(messages::Receiver& receiver) const;
   void report_servos(messages::Receiver& receiver) const;
@@ -56,10 +61,12 @@ class SubmarineSensors {
   double seconds_ = 0.0;
   std::int64_t step_ = 0;
   Sensor depth_, pressure_, conductivity_cell_, water_temperature_, attitude_, rates_, forces_, compass_, speed_, rpm_,
-      gps_, altitude_, leak_, hull_temperature_, voltage_, current_;
+      gps_, altitude_, voltage_, current_;
+  std::array<Sensor, 4> leaks_, hull_temperatures_;
   std::array<Sensor, 2> ranges_;
   std::array<Sensor, 4> servos_;
-  messages::Message beacons_;  // where they lie
+  messages::Message entities_;  // their labels
+  messages::Message beacons_;   // where they lie
   SubmarineReadings readings_;
 };
 

@@ -106,6 +106,7 @@ void Submarine::sample() {
   scene.servos = actuation_.servos();
   sensors_.step(steps_, scene);
   outputs_.sensors = sensors_.readings();
+  outputs_.hull = sensors_.hull_readings();
 }
 
 // the plant moves in water that the current carries along

@@ -25,13 +25,13 @@ SubmarineTelemetry::SubmarineTelemetry(messages::Receiver& to)
                  {&imc::Salinity::descriptor, 6},
                  {&imc::Temperature::descriptor, 7},
                  {&imc::SoundSpeed::descriptor, 8},
-                 {&imc::WaterVelocity::descriptor, 5},
-                 {&imc::EntityState::descriptor, 30}}} {}
+                 {&imc::WaterVelocity::descriptor, 5}}} {}
 
 void SubmarineTelemetry::receive(messages::MessageRef message) {
   const auto* truth = message.as<imc::SimulatedState>();
   if (truth == nullptr) {
-    if (!keep(message)) to_.receive(message);
+    // what an entity of its own reports is not what another does
+    if (message.header != nullptr || !keep(message)) to_.receive(message);
     return;
   }
   ++states_;

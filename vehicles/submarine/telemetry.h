@@ -12,7 +12,8 @@ namespace jarol::vehicles {
 /// Passes on what the submarine reports, at the rates of DUNE's simulator. It
 /// adds, from the true state, 20 EstimatedState, 5 GroundVelocity, an EstimatedStreamVelocity and a Heartbeat a second.
 /// Readings of instruments that DUNE reads at other rates go out at those, the newest each time, until their sensor is
-/// overdue. Voltage and Current, which DUNE's simulator has not, come as the battery reports them.
+/// overdue. Leak sensors and thermometers of the hull, entities each, and Voltage and Current, which DUNE's simulator
+/// has not, come as they report.
 class SubmarineTelemetry : public messages::Receiver {
  public:
   explicit SubmarineTelemetry(messages::Receiver& to);
@@ -35,7 +36,7 @@ class SubmarineTelemetry : public messages::Receiver {
 
   messages::Receiver& to_;
   std::int64_t states_ = 0;  // so far
-  std::array<Reading, 8> readings_;
+  std::array<Reading, 7> readings_;
 };
 
 /// DUNE's Announce of a simulated submarine, which can be reached at an address, as in "udp://127.0.0.1:6002", and lies

@@ -28,7 +28,9 @@ TEST_SUITE("distributers/session/load") {
   TEST_CASE("with DUNE they are those that it does not have") {
     for (const char* profile : {"dune", "dune_console"}) {
       CAPTURE(profile);
-      CHECK(notes_of({profile, {}}) == "distributer 'dune': not fitted, and so not checked: voltage, current\n");
+      CHECK(notes_of({profile, {}}) ==
+            "distributer 'dune': not fitted, and so not checked: leak2, leak3, hull_temperature, hull_temperature1, "
+            "hull_temperature2, hull_temperature3, voltage, current\n");
     }
   }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "tasks/lauv/control.h"
+#include "tasks/lauv/supervisor.h"
+#include "tests/tasks/calm_submarine.h"
 #include "tests/tasks/lauv/every_50_ms.h"
 
 namespace {
@@ -129,13 +131,36 @@ TEST_SUITE("tasks/lauv_fins") {
     CHECK(steps < 40);
   }
 
-  TEST_CASE("a servo that never reports is not checked, one that reports no more is silent, until it does again") {
+  TEST_CASE("of a vehicle that reports no servo, only its propeller, no fin is checked") {
     Watch w;
+    w.in.servos.propeller.count = 1;
     w.in.servos.fins[1] = {0, 0.4, 0};
-    w.in.servos.fins[2] = {0, 0.4, -1};
     for (int i = 0; i < 1000; ++i) w.silent_step();
     for (const FinState state : w.out.fins.states) CHECK(state == FinState::unknown);
+  }
 
+  TEST_CASE("a servo that never reports is silent 2.5 s after another has, unless it is not fitted") {
+    Watch w;
+    w.in.servos.fins[0].count = 1;
+    w.in.servos.fins[2].count = -1;
+    for (int i = 0; i < 49; ++i) w.silent_step();
+    using enum FinState;
+    CHECK(w.out.fins.states == std::array{follows, unknown, unknown, unknown});
+    for (int i = 0; i < 3; ++i) w.silent_step();
+    CHECK(w.out.fins.states == std::array{silent, silent, unknown, silent});
+  }
+
+  TEST_CASE("a servo that reports late begins where it is, and is not stuck") {
+    Watch w;
+    w.in.servos.fins[0].count = 1;
+    for (int i = 0; i < 60; ++i) w.silent_step();
+    CHECK(w.out.fins.states[1] == FinState::silent);
+    for (int i = 0; i < 40; ++i) w.step({0, 0.4, 0, 0}, {0, 0.4, 0, 0});
+    CHECK(w.out.fins.states[1] == FinState::follows);
+  }
+
+  TEST_CASE("a servo that reports no more is silent, until it does again") {
+    Watch w;
     for (int i = 0; i < 20; ++i) w.step({}, {});
     for (int i = 0; i < 49; ++i) w.silent_step();
     CHECK(w.out.fins.states[3] == FinState::follows);
@@ -144,6 +169,24 @@ TEST_SUITE("tasks/lauv_fins") {
     CHECK(w.out.fins.states[3] == FinState::silent);
     w.step({}, {});
     CHECK(w.out.fins.states[3] == FinState::follows);
+  }
+
+  TEST_CASE("2.5 s after a vehicle is heard of which no servo is, it is said that no fin is checked, until one is") {
+    LauvSupervisor::State state;
+    LauvSupervisor::Out out;
+    const auto run = [&](std::int64_t k, FinState first) {
+      LauvSupervisor::In in = tests::calm_submarine(k);
+      in.fins.states[0] = first;
+      LauvSupervisor::run({}, every_50_ms, in, state, out);
+      if (k > 0) CHECK(out.condition.alarm == Alarm::none);
+      return out.condition.fins;
+    };
+    using enum FinState;
+    for (int i = 0; i < 60; ++i) CHECK(run(0, unknown) == FinCheck::checked);  // the vehicle comes late
+    for (int k = 1; k < 50; ++k) CHECK(run(k, unknown) == FinCheck::checked);
+    for (int k = 50; k < 53; ++k) run(k, unknown);
+    CHECK(out.condition.fins == FinCheck::unchecked);
+    CHECK(run(53, follows) == FinCheck::checked);
   }
 
   TEST_CASE("an old reading says nothing of a new command") {

@@ -71,7 +71,7 @@ TEST_SUITE("tools/status_events") {
     CHECK((reported.changes.wants(0) && reported.changes.wants(1) && !reported.changes.wants(2)));
     CHECK(
         reported.changes.to_text() ==
-        "  event       to_neptus at 2 s: alarm gps: it stays at the surface, as GPS is silent\n"
+        "  event       to_neptus at 2 s: alarm gps, fins checked: it stays at the surface, as GPS is silent\n"
         "  event       to_siren at 2 s: gps: it stays at the surface, as GPS is silent\n"
         "  event       to_neptus at 4 s: alarm speed: it comes up, as the speed log or the propeller's speed is silent "
         "or wrong\n"
@@ -85,12 +85,11 @@ TEST_SUITE("tools/status_events") {
   }
 
   TEST_CASE("what holds from the first value on is reported, and no change without a meaning") {
-    CHECK(
-        Reported({Alarm::leak, Alarm::leak}).changes.to_text() ==
-        "  event       to_neptus at 0 s: alarm leak: it comes up, as there is water in the hull, or the leak detector "
-        "is silent\n"
-        "  event       to_siren at 0 s: leak: it comes up, as there is water in the hull, or the leak detector is "
-        "silent\n");
+    CHECK(Reported({Alarm::leak, Alarm::leak}).changes.to_text() ==
+          "  event       to_neptus at 0 s: alarm leak, fins checked: it comes up, as there is water at the first leak "
+          "sensor, or that is silent\n"
+          "  event       to_siren at 0 s: leak: it comes up, as there is water at the first leak sensor, or that is "
+          "silent\n");
     CHECK(Reported({Alarm::none, Alarm::none}).changes.to_text() == "");
   }
 
@@ -125,8 +124,21 @@ TEST_SUITE("tools/status_events") {
                          {"meanings", {"the sonar reports nothing credible"}}});
   }
 
+  TEST_CASE("servos that report nothing are reported 2.5 s after the vehicle was heard, as fins that are not checked") {
+    const std::string run =
+        "run specs/exolauv.yaml --for 4s --set distributers.dune.link.parameters.sensors.servos.failure=";
+    CHECK(reported_in(command::run_jarol(run + "'{kind: lost}'").output) ==
+          std::vector<std::string>{
+              "to_neptus at 2.52 s: alarm none, fins unchecked: no fin is checked, as no servo reports where it is"});
+    CHECK(reported_in(command::run_jarol(run + "'{kind: lost, lasts: 3 s}'").output) ==
+          std::vector<std::string>{
+              "to_neptus at 2.52 s: alarm none, fins unchecked: no fin is checked, as no servo reports where it is",
+              "to_neptus at 3.02 s: fins checked"});
+  }
+
   TEST_CASE("water in the hull is reported, on any clock and by threads too") {
-    const std::string line = "alarm leak: it comes up, as there is water in the hull, or the leak detector is silent";
+    const std::string line =
+        "alarm leak, fins checked: it comes up, as there is water at the first leak sensor, or that is silent";
     const std::string run = "run specs/exolauv.yaml" + leak + " --for ";
     CHECK(reported_in(command::run_jarol(run + "1200ms").output) ==
           std::vector<std::string>{"to_neptus at 1.02 s: " + line});
@@ -147,8 +159,9 @@ TEST_SUITE("tools/status_events") {
                                        "distributers.neptus.link.file=../tests/data/lauv-recovered.csv")
                         .output);
     CHECK(reported ==
-          std::vector<std::string>{"to_neptus at 36.02 s: alarm operator_lost: it comes up, as the operator is silent",
-                                   "to_neptus at 70.02 s: alarm none"});
+          std::vector<std::string>{
+              "to_neptus at 36.02 s: alarm operator_lost, fins checked: it comes up, as the operator is silent",
+              "to_neptus at 70.02 s: alarm none"});
   }
 #endif
 }

@@ -104,13 +104,17 @@ TEST_SUITE("vehicles/submarine_sensors") {
       dived.step();
       dived.sense(from_dived);
     }
-    CHECK(from_afloat.counts ==
-          std::map<std::string, int>{
-              {"Acceleration", 1000}, {"AngularVelocity", 1000}, {"Conductivity", 62},    {"Current", 10},
-              {"Depth", 100},         {"Distance", 100},         {"EntityState", 10},     {"EulerAngles", 1000},
-              {"GpsFix", 10},         {"LblConfig", 1},          {"LblRange", 10},        {"Pressure", 100},
-              {"Rpm", 200},           {"Salinity", 62},          {"ServoPosition", 4000}, {"SimulatedState", 1000},
-              {"SoundSpeed", 62},     {"Temperature", 62},       {"Voltage", 10},         {"WaterVelocity", 100}});
+    CHECK(from_afloat.counts == std::map<std::string, int>{{"Acceleration", 1000},   {"AngularVelocity", 1000},
+                                                           {"Conductivity", 62},     {"Current", 10},
+                                                           {"Depth", 100},           {"Distance", 100},
+                                                           {"EntityList", 10},       {"EntityState", 40},
+                                                           {"EulerAngles", 1000},    {"GpsFix", 10},
+                                                           {"LblConfig", 1},         {"LblRange", 10},
+                                                           {"Pressure", 100},        {"Rpm", 200},
+                                                           {"Salinity", 62},         {"ServoPosition", 4000},
+                                                           {"SimulatedState", 1000}, {"SoundSpeed", 62},
+                                                           {"Temperature", 102},     {"VehicleState", 10},
+                                                           {"Voltage", 10},          {"WaterVelocity", 100}});
     CHECK(from_dived.counts.count("GpsFix") == 0);
     CHECK(from_dived.counts["Depth"] == 100);
   }

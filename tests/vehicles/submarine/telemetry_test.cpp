@@ -73,13 +73,12 @@ TEST_SUITE("vehicles/submarine_telemetry") {
                                                       {"EulerAngles", 100},
                                                       {"AngularVelocity", 100},
                                                       {"Acceleration", 100},
-                                                      {"EntityState", 30},
                                                       {"EstimatedState", 20},
                                                       {"Rpm", 20},
                                                       {"Depth", 16},
                                                       {"Distance", 10},
                                                       {"SoundSpeed", 8},
-                                                      {"Temperature", 7},
+                                                      {"Temperature", 7 + 4},
                                                       {"Conductivity", 6},
                                                       {"Pressure", 6},
                                                       {"Salinity", 6},
@@ -88,6 +87,10 @@ TEST_SUITE("vehicles/submarine_telemetry") {
                                                       {"GpsFix", 1},
                                                       {"EstimatedStreamVelocity", 1},
                                                       {"Heartbeat", 1},
+                                                      // DUNE's 30 entities send one each
+                                                      {"EntityState", 4},
+                                                      {"EntityList", 1},
+                                                      {"VehicleState", 1},
                                                       // of the battery, which DUNE's simulator has not
                                                       {"Voltage", 1},
                                                       {"Current", 1}});

@@ -288,7 +288,8 @@ communicators: {big: {type: double, direction: in, period: 10ms, init: 1.5e308}}
     const auto refused = command::run_jarol("check --measure specs/exolauv.yaml --profile dune");
     CHECK(refused.exit_code == 2);
     CHECK(refused.output ==
-          "note: distributer 'dune': not fitted, and so not checked: voltage, current\n"
+          "note: distributer 'dune': not fitted, and so not checked: leak2, leak3, hull_temperature, "
+          "hull_temperature1, hull_temperature2, hull_temperature3, voltage, current\n"
           "error: distributer 'dune' has a link to what goes on by itself, from which nothing comes while tasks are "
           "measured; choose a link in process, as simulation or script\nspecs/exolauv.yaml: 1 error\n");
   }

@@ -79,13 +79,13 @@ TEST_SUITE("tools/run_files") {
               .exit_code == 0);
     const std::string svg = content(picture);
     CHECK(titles_of(svg) ==
-          Titles{"depth", "pitch", "heading", "speed", "alarm", "to_dune.thruster", "to_dune.fins", "path"});
+          Titles{"depth", "pitch", "heading", "speed", "alarm", "fins", "to_dune.thruster", "to_dune.fins", "path"});
     const auto count = [&](const std::string& text) {
       std::size_t found = 0;
       for (std::size_t at = 0; (at = svg.find(text, at)) != std::string::npos; ++at) ++found;
       return found;
     };
-    CHECK(count(">true</text>") == 5);  // all but alarm, and the path
+    CHECK(count(">true</text>") == 5);  // all but alarm and fins, and the path
     CHECK(count(">commanded</text>") == 3);
     CHECK(count(">none</text>") == 1);
     for (const std::string fin : {"fins.0", "fins.1", "fins.2", "fins.3"}) CHECK(count(">" + fin + "</text>") == 1);
