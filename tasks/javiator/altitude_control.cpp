@@ -62,7 +62,10 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   double& thrust = out.lift.thrust;
   const double error = state.z.place - e.altitude;
   state.sunk = limited(state.sunk + p.ki * error * dt, p.limits.sunk);
-  const double a = state.z.demand + (quick ? p.quick.kp : p.kp) * error + p.kd * (state.z.speed - e.climb) + state.sunk;
+  const double wanted =
+      state.z.demand + (quick ? p.quick.kp : p.kp) * error + p.kd * (state.z.speed - e.climb) + state.sunk;
+  // where it may stand one wrong range must not throw it up again
+  const double a = touches ? std::min(wanted, p.quick.up) : wanted;
   const double upright = std::max(down_in_body(e.roll, e.pitch)[2], p.limits.min_upright);
   thrust = std::clamp(state.trim + (1 + a / gravity) / upright - 1 - state.blind_cut,
                       touches ? 0.0 : p.limits.min_thrust, p.limits.max_thrust);

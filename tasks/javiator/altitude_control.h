@@ -18,10 +18,11 @@ struct QuickLanding {
   double acceleration = 5;
   double brake = 2.5;
   double low = 0.1;
-  double touch_speed = 0.2;
+  double touch_speed = 0.15;
   double drift = 0.7;
   double contact = 0.045;
   double cut = 1.4;
+  double up = 4;
 
   static constexpr auto fields() {
     using Q = QuickLanding;
@@ -34,7 +35,8 @@ struct QuickLanding {
         field<&Q::drift>("m/s", "to the side, beyond which it descends more slowly, at twice of it by touch_speed")
             .in(0.01, 100),
         field<&Q::contact>("m", "altitude from which on thrust is taken back: a foot may stand"),
-        field<&Q::cut>("1/s", "at which it is: it settles on its other feet"));
+        field<&Q::cut>("1/s", "at which it is: it settles on its other feet"),
+        field<&Q::up>("m/s^2", "that it demands there, at most: one wrong range must not throw it up again"));
   }
 };
 
