@@ -179,7 +179,7 @@ connections: [count.out -> sum.in, sum.out -> window.in, window.out -> mean.in]
       for (std::uint64_t seed = 0; seed < 300; ++seed) {
         const tests::EveryKind value = tests::random_every_kind(seed);
         const auto instant = static_cast<std::int64_t>(seed * seed);
-        encoder.encode(&value, chunk.add_message(1, 0, instant, encoder.size(&value)));
+        encoder.encode(&value, chunk.add_message(1, 0, Duration(instant), encoder.size(&value)));
         add_lines(type, reinterpret_cast<const std::byte*>(&value), "", "every " + std::to_string(instant) + " ",
                   expected);
       }
