@@ -147,6 +147,8 @@ TEST_SUITE("tools/broken") {
           continue;
         // what is wrong with a checkpoint: tests/graph/values/archive_test.cpp
         if (name == "archive.cpp" || name == "heap_archive.cpp") continue;
+        // a file that can't be edited: tests/tools/commands/check/measure_test.cpp
+        if (name == "with_wcets.cpp") continue;
         for (const std::string& word : words_of(entry.path())) {
           ++seen;
           const auto& other = brought_about_elsewhere;
