@@ -11,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Where an exception without a type of its own is thrown on purpose: a port, trigger or compressor that the program
-// uses wrongly, Graphviz; what a task did wrong, which is its fault; and programs of the build and the bench.
+// uses wrongly; what a task did wrong, which is its fault; and programs of the build and the bench.
 const std::set<std::string> may_throw_plainly{"graph/floating_point.cpp",
                                               "graph/values/heap.cpp",
                                               "runtime/jarol/port.h",
@@ -25,7 +25,6 @@ const std::set<std::string> may_throw_plainly{"graph/floating_point.cpp",
                                               "tools/bench/vehicles.cpp",
                                               "tools/commands/manual/main.cpp",
                                               "tools/commands/new/rover/vehicle/rover.cpp",
-                                              "tools/drawing/graph/layout.cpp",
                                               "tools/messages/main.cpp"};
 }  // namespace
 

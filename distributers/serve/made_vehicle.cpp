@@ -99,7 +99,7 @@ std::unique_ptr<vehicles::Vehicle> make_vehicle(const VehicleOptions& options,
     problems.throw_if_any();
     try {
       vehicle->place(state);
-    } catch (const std::runtime_error& error) { throw InputError(options.words.initial + ": " + error.what()); }
+    } catch (const std::exception& error) { throw InputError(options.words.initial + ": " + error.what()); }
   }
   problems.throw_if_any();
   return vehicle;

@@ -1,6 +1,7 @@
 #include "distributers/serve/serve_vehicle.h"
 
 #include "distributers/messages/imc_announce.h"
+#include "graph/text/errors.h"
 
 namespace jarol {
 namespace {
@@ -97,7 +98,9 @@ ServeOutcome serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleCl
       link.receive(to_vehicle);
       answer(instant + grid);
     }
-  } catch (const vehicles::NoState& error) { outcome.failure = error.what(); }
+  } catch (const vehicles::NoState& error) { outcome.failure = error.what(); } catch (const std::exception&) {
+    rethrow_as_unfinished("vehicle '" + vehicle_class.name + "'");
+  }
   link.disconnect();
   outcome.mishap = vehicle.mishap();
   outcome.state = vehicle.state();

@@ -38,8 +38,8 @@ struct ServeOutcome {
   LinkReport link{};
 };
 
-/// Until the end, or an interrupt. Both stay the caller's; the class outlives the outcome. Throws Unfinished
-/// where the link can't be had, or is lost.
+/// Until the end, or an interrupt. Both stay the caller's; the class outlives the outcome. Throws InputError where
+/// the link can't be had, Unfinished where it is lost or the vehicle fails.
 ServeOutcome serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class,
                            distributers::Link& link, const ServeOptions& options = {});
 

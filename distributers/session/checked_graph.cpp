@@ -9,7 +9,7 @@ CheckedGraph check_graph(const std::shared_ptr<const Source>& source, const dist
   if (!options.remedies) return checked;
   const auto loads = [&](const Overrides& overrides) {
     try {
-      load_graph(source, known, overrides, 0, options.note);
+      load_graph(source, known, overrides, 0, no_notes);  // its notes are of graphs that nobody has asked about
       return true;
     } catch (const SpecError&) { return false; }
   };

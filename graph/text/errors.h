@@ -2,7 +2,10 @@
 // is an error of this program. Plain C++17, as units that include Simbody include it.
 #pragma once
 
+#include <new>
 #include <stdexcept>
+#include <string>
+#include <system_error>
 
 namespace jarol {
 
@@ -17,5 +20,17 @@ struct InputError : std::runtime_error {
 struct Unfinished : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+/// In a catch block around code that is not this program's, as that of a plugin's vehicle: what has no type of its own
+/// is thrown again as what did not come to its end, by `who`.
+[[noreturn]] inline void rethrow_as_unfinished(const std::string& who) {
+  try {
+    throw;
+  } catch (const InputError&) { throw; } catch (const Unfinished&) {
+    throw;
+  } catch (const std::system_error&) { throw; } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) { throw Unfinished(who + ": " + error.what()); }
+}
 
 }  // namespace jarol

@@ -27,16 +27,17 @@ struct QuickLanding {
   static constexpr auto fields() {
     using Q = QuickLanding;
     return describe(
-        field<&Q::kp>("1/s^2", "kp of it"), field<&Q::gain>("1/s", "acceleration per error of speed"),
-        field<&Q::descent>("m/s", "at most"), field<&Q::acceleration>("m/s^2", "into it, at most"),
-        field<&Q::brake>("m/s^2", "out of it").in(0, 100),
+        field<&Q::kp>("1/s^2", "acceleration per error of altitude"),
+        field<&Q::gain>("1/s", "acceleration per error of speed"), field<&Q::descent>("m/s", "at most"),
+        field<&Q::acceleration>("m/s^2", "into it, at most"), field<&Q::brake>("m/s^2", "out of it").in(0, 100),
         field<&Q::low>("m", "altitude at which it has slowed to touch_speed"),
         field<&Q::touch_speed>("m/s", "of its last part"),
         field<&Q::drift>("m/s", "to the side, beyond which it descends more slowly, at twice of it by touch_speed")
             .in(0.01, 100),
         field<&Q::contact>("m", "altitude from which on thrust is taken back: a foot may stand"),
         field<&Q::cut>("1/s", "at which it is: it settles on its other feet"),
-        field<&Q::up>("m/s^2", "that it demands there, at most: one wrong range must not throw it up again"));
+        field<&Q::up>("m/s^2", "that it demands there, at most: one wrong range must not throw it up again")
+            .in(0, 100));
   }
 };
 
@@ -62,10 +63,10 @@ struct BlindSinking {
         field<&B::gain>("s/m", "thrust per error of descent"),
         field<&B::ki>("1/m", "thrust per integral of that error"), field<&B::speed>("m/s", "of descent"),
         field<&B::margin>("", "of thrust, by which it sinks and does not rise"),
-        field<&B::max_trim>("", "greatest thrust by that integral"),
-        field<&B::max_less>("", "thrust that a climb takes away at most, where a sonar measures it"),
-        field<&B::max_more>("", "thrust that a descent adds at most"),
-        field<&B::max_less_unmeasured>("", "max_less where nothing measures the climb"),
+        field<&B::max_trim>("", "greatest thrust by that integral").in(0, 10),
+        field<&B::max_less>("", "thrust that a climb takes away at most, where a sonar measures it").in(0, 10),
+        field<&B::max_more>("", "thrust that a descent adds at most").in(0, 10),
+        field<&B::max_less_unmeasured>("", "max_less where nothing measures the climb").in(0, 10),
         field<&B::ground_cut>("1/s", "at which thrust is taken back where the sonar shows the ground"),
         field<&B::unmeasured_cut>("1/s", "at which it is where nothing measures the altitude"),
         field<&B::cut_when_landed>("", "thrust taken back so until it has come down, and may lie on the ground"),
@@ -92,7 +93,7 @@ struct OnGround {
                     field<&G::level>("rad", "lean beyond which it may stand on one foot"),
                     field<&G::near>("m", "altitude that it has then at most, more than that of its lean"),
                     field<&G::rising>("m/s", "climb from which on it flies"),
-                    field<&G::max_thrust>("", "with which it tries to leave the ground"),
+                    field<&G::max_thrust>("", "with which it tries to leave the ground, at most").in(1, 10),
                     field<&G::run_down>("s", "from the thrust of hover to none where it stands").in(0.01, 100));
   }
 };
@@ -107,10 +108,11 @@ struct AltitudeLimits {
 
   static constexpr auto fields() {
     using L = AltitudeLimits;
-    return describe(field<&L::min_trim>("", "least thrust at rest, in parts of that of hover"),
-                    field<&L::max_trim>("", "greatest"), field<&L::min_thrust>("", "least in flight"),
-                    field<&L::max_thrust>("", "greatest"),
-                    field<&L::sunk>("m/s^2", "greatest for a lasting error of altitude"),
+    return describe(field<&L::min_trim>("", "least thrust at rest, in parts of that of hover").in(0, 1),
+                    field<&L::max_trim>("", "greatest").in(1, 10),
+                    field<&L::min_thrust>("", "least in flight").in(0, 1),
+                    field<&L::max_thrust>("", "greatest").in(1, 10),
+                    field<&L::sunk>("m/s^2", "greatest for a lasting error of altitude").in(0, 100),
                     field<&L::min_upright>("", "cosine of the greatest lean that thrust makes up for").in(0.01, 1));
   }
 };
@@ -118,6 +120,7 @@ struct AltitudeLimits {
 /// Altitude z (m) and climb (m/s) are positive up, from the place of take-off; thrust is in parts of that of hover. In
 /// flight, with z.place, z.speed and z.demand of the approach to a commanded altitude (approach.h) or of a landing:
 ///   a      = z.demand + kp (z.place - altitude) + kd (z.speed - climb) + sunk          m/s^2
+///            in a quick landing with quick.kp, and on contact at most quick.up
 ///   sunk_dot     = ki (z.place - altitude), |sunk| <= limits.sunk
 ///   thrust = trim + (1 + a / g) / max(cos(phi) cos(theta), min_upright) - 1 - blind_cut
 ///   trim_dot     = lift_bandwidth (1 + expected - lift / g)
@@ -165,7 +168,7 @@ struct AltitudeControl {
           field<&P::ki>("1/s^3", "acceleration per integral of the error of altitude"),
           field<&P::lift_bandwidth>("rad/s", "at which thrust is learnt from the lift that is felt"),
           field<&P::lift_lag>("s", "until thrust demanded is felt"), field<&P::approach>("", "to a new altitude"),
-          field<&P::idle>("", "thrust while standing ready, in parts of that of hover"),
+          field<&P::idle>("", "thrust while standing ready, in parts of that of hover").in(0, 1),
           field<&P::light>("", "thrust below which the ground must carry"),
           field<&P::leaving>("", "thrust up to which it stands while that grows"),
           field<&P::lift_rate>("1/s", "at which thrust grows until it lifts off"),
@@ -179,10 +182,11 @@ struct AltitudeControl {
           field<&P::low>("m", "altitude below which it settles when it is flown to the ground by hand"),
           field<&P::high>("m", "altitude above which a landing descends fast"),
           field<&P::descent_gain>("1/s", "acceleration of a landing per error of its speed"),
-          field<&P::max_descent_change>("m/s^2", "greatest of that"),
+          field<&P::max_descent_change>("m/s^2", "greatest of that").in(0, 100),
           field<&P::max_below>("m", "by which what a landing follows is below the vehicle, at most"),
-          field<&P::first_aloft>("s", "for which the first thrust aloft counts in the mean of what carries it"),
-          field<&P::mean_time>("s", "over which that mean is"), field<&P::limits>(),
+          field<&P::first_aloft>("s", "for which the first thrust aloft counts in the mean of what carries it")
+              .in(0.01, 100),
+          field<&P::mean_time>("s", "over which that mean is").in(0.01, 100), field<&P::limits>(),
           field<&P::ground>("", "how it knows that it stands there, or leaves it"),
           field<&P::blind>("", "when the IMU is lost, and no laser shows how it leans"),
           field<&P::quick>("", "when the IMU is lost, but lasers show how it leans"));

@@ -67,7 +67,7 @@ struct PositionControl {
                       field<&P::stand_time>("s", "in which it levels where it stands").in(0.02, 100),
                       field<&P::blind_kp>("1/s^2", "kp when lasers show how it leans, slower than an IMU"),
                       field<&P::blind_kd>("1/s", "kd then"), field<&P::touch>("", "how it touches the ground then"),
-                      field<&P::max_trim>("m/s^2", "acceleration that the integral adds, at most"));
+                      field<&P::max_trim>("m/s^2", "acceleration that the integral adds, at most").in(0, 100));
     }
   };
   struct In {
@@ -101,8 +101,8 @@ struct PositionControl {
 /// One axis of attitude, of angle a and rate a_dot: it follows a critically damped model of the second order, whose
 /// demand it knows, w being the bandwidth:
 ///   rate_d = w / 2 (goal - model.angle),            |rate_d| <= rate
-///   acceleration = 2 w (rate_d - model.rate),       |acceleration| <= model_part limit effect       (s^2 + 2 w s +
-///   w^2) demand = acceleration / effect + kp (model.angle - a) + kd (model.rate - a_dot) + trim,  |demand| <= limit
+///   acceleration = 2 w (rate_d - model.rate),       |acceleration| <= model_part limit effect   (s^2 + 2 w s + w^2)
+///   demand = acceleration / effect + kp (model.angle - a) + kd (model.rate - a_dot) + trim,  |demand| <= limit
 ///   trim_dot = ki (model.angle - a),                |trim| <= trim_part limit; it is added to before it is used
 ///   given_dot = (demand - given) / spin_time, which cancels a zero at -1 / spin_time: the hull turns more while rotors
 ///               speed up than by their drag. Without a spin_time it is the demand.

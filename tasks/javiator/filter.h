@@ -121,8 +121,7 @@ struct ReadingAge {
 ///   altitude:   z of R_nb (sonar_x, sonar_y, sonar_z + range), from where it stood, corrects the third of them
 ///   place:      find_place (room.h) of each laser's range with the rotation at that time, the first two
 ///   drift:      a second observer upwards, and a SlowAngle of roll and pitch, hardly corrected (filter_checks.h)
-///   pressure:   h = (mean on the ground - pressure) / pascal_per_metre; without a sonar, with e = h - z at each
-///   reading,
+///   pressure:   h = (mean on the ground - pressure) / pascal_per_metre; without a sonar, e being h - z at a reading,
 ///               z += pressure_place e,   climb += pressure_speed e
 /// Between readings of the IMU rates and forces fade by e^(-since / fade), rates to 0 and f_b to R_nb^T (0, 0, -g). The
 /// estimate is turned on by the age of what is measured: angle + age rate. While the IMU is lost the angles, and place

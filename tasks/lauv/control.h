@@ -30,9 +30,9 @@ struct DrivenAstern {
 ///   e       = setpoint.depth - z
 ///   z_dot   = -u sin(theta) + v cos(theta) sin(phi) + w cos(theta) cos(phi)
 ///   theta_d = -kp e + kd z_dot + pitch_trim,                                |theta_d| <= limit
-///   pitch_trim_dot = -ki e while |e| < reach,                               |pitch_trim| <= min(limit, within kp
-///   reach) moment  = pitch_kp (theta_d - theta) - pitch_kd theta_dot,              |moment| <= fin_limit theta_dot = q
-///   cos(phi) - r sin(phi)
+///   pitch_trim_dot = -ki e while |e| < reach,                       |pitch_trim| <= min(limit, within kp reach)
+///   moment  = pitch_kp (theta_d - theta) - pitch_kd theta_dot,              |moment| <= fin_limit
+///   theta_dot = q cos(phi) - r sin(phi)
 /// The integral is this project's: DUNE has none set for its simulator, and stays 5 cm above a depth of 3 m there.
 /// Driven astern by a propeller that does not obey (u, averaged over astern.time, < -astern.speed) nothing steers:
 /// moment = fin_limit, see vehicles/failures.md.

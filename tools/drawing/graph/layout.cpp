@@ -9,9 +9,10 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <stdexcept>
+#include <string>
 
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 
 namespace jarol::tools {
 namespace {
@@ -253,8 +254,7 @@ Drawing lay_out(Drawing drawing) {
   Graphviz graphviz;
   build(graphviz, drawing);
   [[maybe_unused]] const UnseenLeaks unseen{};
-  if (gvLayout(context, graphviz.graph.get(), "dot") != 0)
-    throw std::runtime_error("Graphviz could not lay out the graph");
+  if (gvLayout(context, graphviz.graph.get(), "dot") != 0) throw Unfinished("Graphviz could not lay out the graph");
   read_places(graphviz, drawing);
   gvFreeLayout(context, graphviz.graph.get());
   find_core(drawing);

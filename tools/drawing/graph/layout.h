@@ -39,7 +39,7 @@ struct Drawing {
 /// As a node says it: "every 50ms from 10ms".
 std::string timing_text(Duration period, Duration offset);
 
-/// Throws std::runtime_error where Graphviz can't.
+/// Throws Unfinished where Graphviz can't.
 Drawing lay_out(const Graph& graph);
 /// Of nodes and arrows that have no sizes and places yet. Throws as above.
 Drawing lay_out(Drawing parts);
