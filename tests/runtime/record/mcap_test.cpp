@@ -50,7 +50,7 @@ void write_file(const std::string& path, Compression compression) {
     chunk.add(record_of(a));
     chunk.add(record_of(b));
     for (std::uint32_t m = 0; m < 5; ++m)
-      std::memset(chunk.add_message(m % 2 == 0 ? 1 : 2, m, Duration(100 * i + m), 12), static_cast<int>(m), 12);
+      std::memset(chunk.add_message(m % 2 == 0 ? 1 : 2, m, jarol::Duration(100 * i + m), 12), static_cast<int>(m), 12);
     writer.write(chunk);
   }
   writer.end({schema}, {a, b});
