@@ -59,6 +59,15 @@ class Announcements {
   messages::imc::AnnounceTimer timer_;
 };
 
+// What a plugin's vehicle throws is not this program's; what a sink throws stays as it is.
+void step(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class) {
+  try {
+    vehicle.step();
+  } catch (const vehicles::NoState&) { throw; } catch (const std::exception&) {
+    rethrow_as_unfinished("vehicle '" + vehicle_class.name + "'");
+  }
+}
+
 }  // namespace
 
 ServeOutcome serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class, Link& link,
@@ -93,14 +102,12 @@ ServeOutcome serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleCl
          instant += grid) {
       clock.wait_until(instant + grid, interrupted);
       // commands hold from the instant after they have come
-      vehicle.step();
+      step(vehicle, vehicle_class);
       to_vehicle.heard = false;
       link.receive(to_vehicle);
       answer(instant + grid);
     }
-  } catch (const vehicles::NoState& error) { outcome.failure = error.what(); } catch (const std::exception&) {
-    rethrow_as_unfinished("vehicle '" + vehicle_class.name + "'");
-  }
+  } catch (const vehicles::NoState& error) { outcome.failure = error.what(); }
   link.disconnect();
   outcome.mishap = vehicle.mishap();
   outcome.state = vehicle.state();

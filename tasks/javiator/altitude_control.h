@@ -75,6 +75,7 @@ struct BlindSinking {
   }
 };
 
+/// How it knows that it stands on the ground, and how it leaves it.
 struct OnGround {
   double altitude = 0.02;
   double still = 0.05;
@@ -98,6 +99,7 @@ struct OnGround {
   }
 };
 
+/// What thrust and its corrections stay within.
 struct AltitudeLimits {
   double min_trim = 0.4;
   double max_trim = 1.7;
