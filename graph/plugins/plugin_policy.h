@@ -8,7 +8,7 @@
 //   };
 //
 // with the names of jarol::analysis. `jarol check` judges by it; what runs when, in pictures and under --execution,
-// follows from `urgency` and `interrupts`; the real clock does not execute it. graph/analysis/README.md has one.
+// follows from `urgency` and `interrupts`; the real clock does not execute it. graph/analysis/own_policy.md has one.
 #pragma once
 
 #include "graph/analysis/check.h"

@@ -173,7 +173,8 @@ TEST_SUITE("distributers/registries") {
     CHECK(report_on("{type: radi, frequency: 433}") ==
           "error: link of distributer 'pilot' has type 'radi'; did you mean 'radio'?; a JaviatorOperator can have: " +
               links_of_operators());
-    CHECK(links_of_operators().ends_with(", serial, radio"));
+    CHECK(links_of_operators().find(", serial, ") != std::string::npos);
+    CHECK(links_of_operators().ends_with(", radio"));
   }
 
   TEST_CASE("a vehicle and a distributer of another's are simulated by the link that is built in") {

@@ -35,11 +35,15 @@ inline Graph graph_of(const std::string& text, const Overrides& overrides = {}) 
 }
 
 /// The whole report on a text that is not valid, or nothing.
-inline std::string report_on(const std::string& text, const Overrides& overrides = {}) {
+inline std::string report_on(const Registry& registry, const std::string& text, const Overrides& overrides = {}) {
   try {
-    graph_of(text, overrides);
+    graph_of(registry, text, overrides);
   } catch (const SpecError& error) { return error.what(); }
   return "";
+}
+
+inline std::string report_on(const std::string& text, const Overrides& overrides = {}) {
+  return report_on(generic_tasks(), text, overrides);
 }
 
 }  // namespace jarol::tests

@@ -26,6 +26,8 @@ std::string with_names(std::string text) {
   const std::pair<std::string, std::vector<std::string>> lists[] = {
       {"<tasks>", jarol::names_of(known.graph.tasks())},
       {"<policies>", jarol::names_of(known.graph.policies())},
+      {"<distributers>", jarol::names_of(known.graph.distributers())},
+      {"<types of values>", known.graph.type_names()},
       {"<vehicles>", jarol::names_of(known.vehicles.entries())},
       {"<links of an operator>", links}};
   for (const auto& [mark, names] : lists)

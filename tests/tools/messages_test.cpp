@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "distributers/messages/message_set.h"
+#include "graph/language/problems.h"
 #include "tests/tools/run_command.h"
 
 using command::run_jarol;
@@ -55,7 +57,10 @@ TEST_SUITE("tools/messages") {
       CHECK(result.exit_code == 2);
       return result.output;
     };
-    CHECK(error("imd") == "error: there is no message set 'imd'; did you mean 'imc'?; there are: imc, javiator\n");
+    std::vector<std::string> sets;
+    for (const auto* const set : jarol::messages::message_sets()) sets.emplace_back(set->name);
+    CHECK(error("imd") ==
+          "error: there is no message set 'imd'; did you mean 'imc'?; there are: " + jarol::list_of(sets) + "\n");
     CHECK(error("imc DesiredY") == "error: set imc has no message 'DesiredY'; did you mean 'DesiredZ'?\n");
     CHECK(error("imc Qqqqqqq") == "error: set imc has no message 'Qqqqqqq'; jarol messages imc lists them\n");
     CHECK(error("--decode") == "error: --decode and --encode need a set; jarol messages lists them\n");
