@@ -192,7 +192,8 @@ TEST_SUITE("tools/commands/campaign") {
         {"last = 9e999", "in run 1 as 'last' what no run comes to"},
         {"run = 77", "a run 77, which is none of the campaign"},
         {"run = -1", "a run -1, which is none of the campaign"}};
-    for (const auto& [what, why] : wrong) {
+    for (const auto& [set, why] : wrong) {
+      const std::string& what = set;
       CAPTURE(what);
       const auto refused = changed("UPDATE runs SET " + what + " WHERE run = 1");
       CHECK(refused.exit_code == 2);
