@@ -31,6 +31,7 @@ struct LauvOperatorParameters {
   double button_rate = 0.1;
   double silence = 2;
   FlightLimits limits{};
+  HeadwayLimits headway{};
 
   static constexpr auto fields() {
     using P = LauvOperatorParameters;
@@ -41,7 +42,8 @@ struct LauvOperatorParameters {
                     field<&P::full_rate>("rad/s", "rate of turn at the end of the axis of heading"),
                     field<&P::button_rate>("1/s", "thrust per time while its button is held"),
                     field<&P::silence>("s", "of a hand that steers, after which thrust and rate are 0"),
-                    field<&P::limits>("", "of plans: what exceeds them is refused"));
+                    field<&P::limits>("", "of plans: what exceeds them is refused"),
+                    field<&P::headway>("", "without which a plan is given up"));
   }
 };
 
@@ -106,7 +108,7 @@ class LauvOperator {
   }
 
   explicit LauvOperator(const Param& parameters)
-      : parameters_(parameters), origin_{parameters.latitude, parameters.longitude} {}
+      : parameters_(parameters), origin_{parameters.latitude, parameters.longitude}, plan_(parameters.headway) {}
 
   void any_message(const messages::MessageRef& message);
   void peer_changed();

@@ -102,7 +102,7 @@ bool PlanRun::note(const tasks::Progress& progress, const tasks::Motion& motion,
     return true;
   }
   if (!progress.done) {
-    const std::string lost = headway_.note(leg_, progress, motion, now);
+    const std::string lost = headway_.note(limits_, leg_, progress, motion, now);
     if (lost.empty()) return false;
     end(Outcome::failure, fmt::format("maneuver '{}': {}", maneuver().name, lost));
     return true;

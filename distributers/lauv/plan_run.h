@@ -19,6 +19,8 @@ class PlanRun {
  public:
   enum class Outcome : std::uint8_t { none, success, failure };
 
+  explicit PlanRun(const HeadwayLimits& limits) : limits_(limits) {}
+
   void start(Plan plan, const tasks::Motion& motion, Duration now);
   /// Ends it before it is done.
   void stop(std::string why);
@@ -60,6 +62,7 @@ class PlanRun {
   void end(Outcome outcome, std::string why);
   const PlannedLeg* find_next_leg() const;
 
+  HeadwayLimits limits_;
   Plan plan_;
   bool runs_ = false;
   std::size_t at_ = 0, leg_at_ = 0, flown_ = 0;  // flown_: maneuvers

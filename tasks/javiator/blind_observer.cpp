@@ -19,13 +19,12 @@ Eigen::Map<Matrix> covariance_of(LeanGuess& guess) { return Eigen::Map<Matrix>(g
 // What is known when an IMU falls silent, or has reported the same for a while. A ray is as long for a lean towards its
 // wall as for one away from it, and winds turn it to either side: each guess is of another wind.
 void begin(LeanAxis& axis, const BlindObserver::Param& p) {
-  constexpr double apart = 1.2, part = 0.8;  // of the wind's deviation: guesses lie so far apart, each as wide
-  constexpr double place = 0.003, speed = 0.03, lean = 0.01, rate = 0.05;  // m, m/s, rad, rad/s, as an IMU knows them
-  const Vector deviations(place, speed, lean, rate, part * p.gusts);
+  const BlindStart& start = p.start;
+  const Vector deviations(start.place, start.speed, start.lean, start.rate, start.wind_width * p.gusts);
   double sum = 0;
   for (std::size_t i = 0; i < axis.guesses.size(); ++i) {
     LeanGuess& guess = axis.guesses[i] = axis.mean;
-    const double off = apart * (static_cast<double>(i) - 2);
+    const double off = start.wind_apart * (static_cast<double>(i) - 2);
     guess.wind = off * p.gusts;
     guess.weight = std::exp(-0.5 * off * off);
     sum += guess.weight;
@@ -184,8 +183,7 @@ void BlindObserver::run(const Param& p, const Tick& tick, const In& in, State& s
   }
   state.is_blind = !e.rates_known;
   feel(state, p.lag, dt);
-  constexpr double min_thrust = 0.1;  // of hover's: the mean of one that stands is 0
-  const double spin = std::sqrt(std::max(state.felt_thrust, 0.0) / std::max(state.mean_thrust, min_thrust));
+  const double spin = std::sqrt(std::max(state.felt_thrust, 0.0) / std::max(state.mean_thrust, p.min_thrust));
   const Vector2d turning = p.effect * (Rotation2Dd(state.heading) * Vector2d(-state.felt.pitch, state.felt.roll));
   const GroundEffect ground = find_ground_effect(p, e.altitude);
   const double lift =

@@ -54,6 +54,25 @@ struct LeanAxis {
   }
 };
 
+/// What is known when the IMU falls silent: standard deviations of what it knew, and the winds that are guessed.
+struct BlindStart {
+  double place = 0.003;
+  double speed = 0.03;
+  double lean = 0.01;
+  double rate = 0.05;
+  double wind_apart = 1.2;
+  double wind_width = 0.8;
+
+  static constexpr auto fields() {
+    using B = BlindStart;
+    return describe(
+        field<&B::place>("m", "standard deviation").in(0, 10), field<&B::speed>("m/s", "standard deviation").in(0, 10),
+        field<&B::lean>("rad", "standard deviation").in(0, 1), field<&B::rate>("rad/s", "standard deviation").in(0, 10),
+        field<&B::wind_apart>("", "from one guess of the wind to the next, in gusts").in(0, 10),
+        field<&B::wind_width>("", "standard deviation of each guess, in gusts").in(0, 10));
+  }
+};
+
 /// While the IMU reports, the observer begins anew each period with what is known then. Without it, it turns by what
 /// the rotors are sent and is corrected by the lasers: it is pushed where it leans, so lean, rate and wind follow from
 /// places alone. A ray that looks down is longer for a lean towards its wall, as if it had moved away: such a lean
@@ -83,26 +102,32 @@ struct BlindObserver {
     double yaw_noise = 0.02;
     double turn_limit = 0.1;
     double patience = 0.3;
+    double min_thrust = 0.1;
+    BlindStart start{};
     static constexpr auto fields() {
       using P = Param;
-      return describe(field<&P::effect>("rad/s^2", "angular acceleration of roll and pitch per demand"),
-                      field<&P::damping>("1/s", "at which the rotors brake roll and pitch"),
-                      field<&P::lag>("s", "until a demand is felt"),
-                      field<&P::yaw_effect>("rad/s^2", "angular acceleration of yaw per demand"),
-                      field<&P::spin_time>("s", "for which the hull turns more as rotors speed up than by their drag"),
-                      field<&P::mean_time>("s", "over which drag and torque at rest are averaged"),
-                      field<&P::range_noise>("m", "standard deviation of a place that a laser measures").in(1e-6, 1),
-                      field<&P::drag>("1/s", "at which the air takes it along"),
-                      field<&P::inflow>("1/s", "at which rotors brake a climb"),
-                      field<&P::hub>("rad/(m s)", "at which air that flows past turns it"),
-                      field<&P::arm>("m", "of a rotor"), field<&P::rotor_radius>("m").in(0.01, 10),
-                      field<&P::rotor_height>("m", "above the ground, where it stands").in(0.01, 10),
-                      field<&P::gusts>("m/s", "of the air"), field<&P::gust_time>("s", "of gusts"),
-                      field<&P::force_noise>("m/s^2/sqrt(Hz)", "density of all else"),
-                      field<&P::torque_noise>("rad/s^2/sqrt(Hz)", "density of all else"),
-                      field<&P::yaw_noise>("rad", "standard deviation of the yaw, which nobody measures"),
-                      field<&P::turn_limit>("rad/s", "of yaw when the IMU is lost, beyond which walls are lost, too"),
-                      field<&P::patience>("s", "without a laser that sees along an axis before its lean is unknown"));
+      return describe(
+          field<&P::effect>("rad/s^2", "angular acceleration of roll and pitch per demand"),
+          field<&P::damping>("1/s", "at which the rotors brake roll and pitch"),
+          field<&P::lag>("s", "until a demand is felt"),
+          field<&P::yaw_effect>("rad/s^2", "angular acceleration of yaw per demand"),
+          field<&P::spin_time>("s", "for which the hull turns more as rotors speed up than by their drag"),
+          field<&P::mean_time>("s", "over which drag and torque at rest are averaged"),
+          field<&P::range_noise>("m", "standard deviation of a place that a laser measures").in(1e-6, 1),
+          field<&P::drag>("1/s", "at which the air takes it along"),
+          field<&P::inflow>("1/s", "at which rotors brake a climb"),
+          field<&P::hub>("rad/(m s)", "at which air that flows past turns it"), field<&P::arm>("m", "of a rotor"),
+          field<&P::rotor_radius>("m").in(0.01, 10),
+          field<&P::rotor_height>("m", "above the ground, where it stands").in(0.01, 10),
+          field<&P::gusts>("m/s", "of the air"), field<&P::gust_time>("s", "of gusts").in(0.02, 1000),
+          field<&P::force_noise>("m/s^2/sqrt(Hz)", "density of all else"),
+          field<&P::torque_noise>("rad/s^2/sqrt(Hz)", "density of all else"),
+          field<&P::yaw_noise>("rad", "standard deviation of the yaw, which nobody measures"),
+          field<&P::turn_limit>("rad/s", "of yaw when the IMU is lost, beyond which walls are lost, too"),
+          field<&P::patience>("s", "without a laser that sees along an axis before its lean is unknown"),
+          field<&P::min_thrust>("", "mean demand by which the rotors' speed is reckoned, at least: at rest it is 0")
+              .in(0.01, 1),
+          field<&P::start>("", "what is known when the IMU is lost"));
     }
   };
   struct In {

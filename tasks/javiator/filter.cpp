@@ -78,8 +78,8 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
     if (!state.has_flown) state.zero_yaw = s.yaw;
     state.yaw = wrapped(s.yaw - state.zero_yaw);
     if (s.answers > 0) state.angles = {.lost = !feels_level(state, p, s)};
-    rest(state.slow_roll, s.roll, angle_rates.x());
-    rest(state.slow_pitch, s.pitch, angle_rates.y());
+    rest(state.slow_roll, s.roll, angle_rates.x(), p.drift.rest);
+    rest(state.slow_pitch, s.pitch, angle_rates.y(), p.drift.rest);
   }
   // over a gap it turned at the mean of the rates before and after it
   const double turned = 0.5 * (gap + dt);
@@ -132,14 +132,14 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
   const bool new_pressure = hear(state.pressure, fresh && s.new_bmu, s.pressure, p.repeats, heard_dt);
   if (settled) {
     if (s.answers > 0) {
-      rest(state.x, a.x());
-      rest(state.y, a.y());
-      rest(state.z, -a.z());
+      rest(state.x, a.x(), p.drift.rest);
+      rest(state.y, a.y(), p.drift.rest);
+      rest(state.z, -a.z(), p.drift.rest);
     }
     forgive(state.sonar, new_z);
-    if (new_z) settle(state.z, state.zero_z, z, state.has_flown);
+    if (new_z) settle(state.z, state.zero_z, z, state.has_flown, p.drift.rest);
     forgive(state.pressure, new_pressure);
-    if (new_pressure && state.pressure.repeats == 0) learn(state.ground, s.pressure, last_pressure);
+    if (new_pressure && state.pressure.repeats == 0) learn(state.ground, s.pressure, last_pressure, p.drift.rest);
     state.disagreement = 0;
     state.anew.begins = false;
   } else {
@@ -192,7 +192,7 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
     double& zero = *zeros[fix.axis];
     if (settled) {
       forgive(laser, heard && fix.seen);
-      if (heard && fix.seen) settle(axis, zero, fix.place, state.has_flown);
+      if (heard && fix.seen) settle(axis, zero, fix.place, state.has_flown, p.drift.rest);
       return;
     }
     if (heard && fix.at_corner) return void(laser.silent = 0);  // that says nothing, and nothing of the laser

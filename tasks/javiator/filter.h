@@ -23,6 +23,7 @@ struct DriftLimits {
   double pull = 0.02;
   double pull_time = 1.5;
   double new_part = 0.05;
+  RestLearning rest{};
 
   static constexpr auto fields() {
     using D = DriftLimits;
@@ -35,7 +36,8 @@ struct DriftLimits {
         field<&D::angle>("rad", "between them at which the angles are not credible, if the place is as well"),
         field<&D::pull>("rad", "of an angle that sideways acceleration without a cause shows"),
         field<&D::pull_time>("s", "over which that is averaged"),
-        field<&D::new_part>("", "of a new difference between sensors in its average").in(0, 1));
+        field<&D::new_part>("", "of a new difference between sensors in its average").in(0, 1),
+        field<&D::rest>("", "what is learnt of sensors where it stands"));
   }
 };
 

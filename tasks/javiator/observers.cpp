@@ -6,15 +6,6 @@
 #include "graph/math/geometry.h"
 
 namespace jarol::tasks {
-namespace {
-
-constexpr double bias_part = 0.02;           // of a new reading in the bias, at rest
-constexpr double place_part = 0.1;           // of one in the place where it stands
-constexpr double pressure_part = 0.1;        // of one in the mean
-constexpr std::uint32_t max_readings = 200;  // in the average of steps
-constexpr double max_step = 20;              // Pa: one gust is no noise
-
-}  // namespace
 
 void predict(AxisObserver& axis, double acceleration, double dt) {
   const double a = acceleration - axis.bias;
@@ -42,15 +33,15 @@ void correct(SlowAngle& slow, double measured, double bandwidth, double dt) {
   slow.bias -= (1 - pole) * (1 - pole) * residual / dt;
 }
 
-void rest(AxisObserver& axis, double acceleration) {
-  axis = {.place = axis.place, .bias = axis.bias + bias_part * (acceleration - axis.bias)};
+void rest(AxisObserver& axis, double acceleration, const RestLearning& by) {
+  axis = {.place = axis.place, .bias = axis.bias + by.bias_part * (acceleration - axis.bias)};
 }
 
-void settle(AxisObserver& axis, double& zero, double measured, bool has_flown) {
+void settle(AxisObserver& axis, double& zero, double measured, bool has_flown, const RestLearning& by) {
   if (has_flown) {
-    axis.place += place_part * (measured - zero - axis.place);
+    axis.place += by.place_part * (measured - zero - axis.place);
   } else {
-    zero += (zero == 0 ? 1 : place_part) * (measured - zero);
+    zero += (zero == 0 ? 1 : by.place_part) * (measured - zero);
   }
 }
 
@@ -59,18 +50,18 @@ void take_off(AxisObserver& axis, double& zero) {
   axis.place = 0;
 }
 
-void rest(SlowAngle& slow, double measured, double rate) {
-  slow = {.angle = measured, .bias = slow.bias + bias_part * (rate - slow.bias)};
+void rest(SlowAngle& slow, double measured, double rate, const RestLearning& by) {
+  slow = {.angle = measured, .bias = slow.bias + by.bias_part * (rate - slow.bias)};
 }
 
-void learn(GroundPressure& ground, double pressure, double last) {
-  ground.readings = std::min(ground.readings + 1, max_readings);
+void learn(GroundPressure& ground, double pressure, double last, const RestLearning& by) {
+  ground.readings = std::min(ground.readings + 1, by.steps);
   if (ground.readings == 1) {
     ground.mean = pressure;
     return;
   }
-  ground.mean += pressure_part * (pressure - ground.mean);
-  const double step = limited(pressure - last, max_step);
+  ground.mean += by.pressure_part * (pressure - ground.mean);
+  const double step = limited(pressure - last, by.max_step);
   ground.step_squared += (step * step - ground.step_squared) / (ground.readings - 1);
 }
 

@@ -57,7 +57,26 @@ struct GroundPressure {
   static constexpr auto fields() {
     using G = GroundPressure;
     return describe(field<&G::mean>("Pa"), field<&G::step_squared>("Pa^2", "from one reading to the next, averaged"),
-                    field<&G::readings>("", "in these averages, up to 200"));
+                    field<&G::readings>("", "in these averages, up to drift.rest.steps"));
+  }
+};
+
+/// What it learns where it stands: of each new reading a part, in an average.
+struct RestLearning {
+  double bias_part = 0.02;
+  double place_part = 0.1;
+  double pressure_part = 0.1;
+  std::uint32_t steps = 200;
+  double max_step = 20;
+
+  static constexpr auto fields() {
+    using R = RestLearning;
+    return describe(
+        field<&R::bias_part>("", "of a reading in the bias of the accelerometer, or of a rate").in(0, 1),
+        field<&R::place_part>("", "of one in the place where it stands").in(0, 1),
+        field<&R::pressure_part>("", "of one in the mean of the pressure").in(0, 1),
+        field<&R::steps>("", "of the pressure from reading to reading, averaged for its noise, at most").in(2, 10000),
+        field<&R::max_step>("Pa", "of these: one gust is no noise").in(0, 10000));
   }
 };
 
@@ -68,10 +87,10 @@ void predict(AxisObserver& axis, double acceleration, double dt);
 void correct(AxisObserver& axis, double measured, double bandwidth);
 
 /// Standing still it does not move, and what it feels is the accelerometer's bias.
-void rest(AxisObserver& axis, double acceleration);
+void rest(AxisObserver& axis, double acceleration, const RestLearning& by);
 
 /// What is measured where it stands is averaged, as zero before the first flight and as the place after it.
-void settle(AxisObserver& axis, double& zero, double measured, bool has_flown);
+void settle(AxisObserver& axis, double& zero, double measured, bool has_flown, const RestLearning& by);
 
 /// Where it takes off is zero.
 void take_off(AxisObserver& axis, double& zero);
@@ -83,9 +102,9 @@ void predict(SlowAngle& slow, double rate, double dt);
 void correct(SlowAngle& slow, double measured, double bandwidth, double dt);
 
 /// Standing still the angle is what is measured, and its rate is its bias.
-void rest(SlowAngle& slow, double measured, double rate);
+void rest(SlowAngle& slow, double measured, double rate, const RestLearning& by);
 
 /// The pressure (Pa) is averaged, and how noisy it is, `last` being the reading before.
-void learn(GroundPressure& ground, double pressure, double last);
+void learn(GroundPressure& ground, double pressure, double last, const RestLearning& by);
 
 }  // namespace jarol::tasks

@@ -7,12 +7,30 @@
 
 namespace jarol::tasks {
 
+/// Which of two walls a laser surely meets, and whether that has a place.
+struct WallSight {
+  double corner = 1;
+  double place_error = 0.1;
+  double grazing = 0.1;
+
+  static constexpr auto fields() {
+    using W = WallSight;
+    return describe(
+        field<&W::corner>("m", "by which a wall must be nearer along the ray than the other one").in(0, 100),
+        field<&W::place_error>("m", "of the place expected: the more a ray grazes a wall, the nearer it must be")
+            .in(0, 100),
+        field<&W::grazing>("", "cosine of the angle to a wall's normal, below which it has no place").in(0, 1));
+  }
+};
+
 struct Room {
   double north = 8, east = 8, south = 12, west = 12;
+  WallSight sight{};
 
   static constexpr auto fields() {
     return describe(field<&Room::north>("m", "of where it started, its wall"), field<&Room::east>("m"),
-                    field<&Room::south>("m"), field<&Room::west>("m"));
+                    field<&Room::south>("m"), field<&Room::west>("m"),
+                    field<&Room::sight>("", "which of them a laser meets"));
   }
 };
 

@@ -8,14 +8,15 @@
 namespace jarol::tasks {
 namespace {
 
-constexpr double water_density = 1000, air_pressure = 1013.25;  // hPa
+constexpr double hectopascal = 100;  // Pa
 
 }  // namespace
 
-double calc_depth(double pressure) { return (pressure - air_pressure) * 100 / (water_density * gravity); }
+double calc_depth(const Water& water, double pressure) {
+  return (pressure - water.air_pressure) * hectopascal / (water.density * gravity);
+}
 
 void DepthSource::take(const Model& model, const Instruments& i, double dt) {
-  constexpr std::int64_t enough = 3;  // fixes: one may have been late, or another's
   const bool has_fix = i.place.count > fixes;
   since_fix += dt;
   if (since_fix > model.timeout) fixes_in_row = 0;
@@ -30,13 +31,13 @@ void DepthSource::take(const Model& model, const Instruments& i, double dt) {
     if (has_fix) g.contradicted = reading > model.fix_depth + model.fix_error ? g.contradicted + 1 : 0;
     return count > 0 && g.silence <= model.timeout;
   };
-  const double by_gauge = i.depth.value, by_pressure = calc_depth(i.pressure.value);
+  const double by_gauge = i.depth.value, by_pressure = calc_depth(model.water, i.pressure.value);
   const bool gauge_reports = reports(gauge, by_gauge, i.depth.count),
              pressure_reports = reports(pressure, by_pressure, i.pressure.count);
   const bool agree = gauge_reports && pressure_reports && std::abs(by_gauge - by_pressure) <= model.error;
   const auto is_wrong = [&](const Gauge& g, const Gauge& other, bool other_reports) {
-    if (g.contradicted < enough || (agree && other.contradicted > 0)) return false;
-    return fixes_in_row >= enough || (other_reports && other.contradicted == 0);
+    if (g.contradicted < model.enough || (agree && other.contradicted > 0)) return false;
+    return fixes_in_row >= model.enough || (other_reports && other.contradicted == 0);
   };
   const bool gauge_known = gauge_reports && !is_wrong(gauge, pressure, pressure_reports),
              pressure_known = pressure_reports && !is_wrong(pressure, gauge, gauge_reports);
@@ -44,7 +45,7 @@ void DepthSource::take(const Model& model, const Instruments& i, double dt) {
     depth = by_pressure;
   } else if (gauge_known) {
     depth = by_gauge;
-  } else if (fixes_in_row >= enough) {
+  } else if (fixes_in_row >= model.enough) {
     depth = std::min(depth, model.fix_depth);
   }
 }

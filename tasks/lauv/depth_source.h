@@ -8,18 +8,31 @@
 
 namespace jarol::tasks {
 
-/// In m below the surface of fresh water, from a pressure in hPa.
-double calc_depth(double pressure);
+/// What makes a depth of a pressure.
+struct Water {
+  double density = 1000;
+  double air_pressure = 1013.25;
+
+  static constexpr auto fields() {
+    return describe(field<&Water::density>("kg/m^3", "of the water; of the sea some 1025").in(500, 2000),
+                    field<&Water::air_pressure>("hPa", "at the surface").in(0, 2000));
+  }
+};
+
+/// In m below the surface, from a pressure in hPa: (pressure - air_pressure) / (density g).
+double calc_depth(const Water& water, double pressure);
 
 /// The gauge, while it reports; then the pressure. Where they differ too much, the deeper one. Fixes of GPS come from
-/// the surface: a reading that is deeper beside three of them is wrong, until a fix agrees with it; but not where gauge
-/// and pressure agree, and, where nothing shows a smaller depth, only while fixes go on: one that was late, or
+/// the surface: a reading that is deeper beside `enough` of them is wrong, until a fix agrees with it; but not where
+/// gauge and pressure agree, and, where nothing shows a smaller depth, only while fixes go on: one that was late, or
 /// another's, takes no submarine for surfaced. While neither depth is known it stays where it was last, or at the
-/// surface once there are three fixes in a row.
+/// surface once there are `enough` fixes in a row.
 struct DepthSource {
   struct Model {
     double timeout;                      // s
     double error, fix_depth, fix_error;  // m
+    std::int64_t enough;                 // fixes
+    Water water;
   };
   struct Gauge {
     std::int64_t count = 0;

@@ -13,12 +13,9 @@ using Param = LauvGuidance::Param;
 using In = LauvGuidance::In;
 using State = LauvGuidance::State;
 
-constexpr double slowest = 0.1;            // m/s, of which times and drift are reckoned
-constexpr double sharpest = 100 * degree;  // turn that is prepared
-
 void begin(const Param& p, const In& in, State& state) {
   const bool joins = state.has_end && std::hypot(in.motion.x - state.end_x, in.motion.y - state.end_y) <
-                                          4 * p.reach + std::abs(in.leg.surge) / p.turn_rate;
+                                          p.joins * p.reach + std::abs(in.leg.surge) / p.turn_rate;
   const State before = state;
   state = {.number = in.leg.number,
            .begin_x = joins ? before.end_x : in.motion.x,
@@ -41,15 +38,15 @@ double integrate(const Param& p, double dt, double e, State& state) {
 }
 
 // The heading on which a course is kept in the stream; across it, as far as the speed allows.
-double crab(const In& in, double chi) {
+double crab(const Param& p, const In& in, double chi) {
   const double across = in.stream.east * std::cos(chi) - in.stream.north * std::sin(chi);
-  const double through = std::max({in.motion.u, in.leg.drive == Drive::speed ? in.leg.surge : 0, slowest});
-  return wrapped(chi - std::asin(limited(across / through, 0.9)));
+  const double through = std::max({in.motion.u, in.leg.drive == Drive::speed ? in.leg.surge : 0, p.min_speed});
+  return wrapped(chi - std::asin(limited(across / through, p.max_drift)));
 }
 
 // Over ground, along that course.
-double speed_along(const In& in, double chi) {
-  return std::max(in.motion.u + in.stream.north * std::cos(chi) + in.stream.east * std::sin(chi), slowest);
+double speed_along(const Param& p, const In& in, double chi) {
+  return std::max(in.motion.u + in.stream.north * std::cos(chi) + in.stream.east * std::sin(chi), p.min_speed);
 }
 
 // The line from where it began, and the vehicle beside it.
@@ -80,10 +77,10 @@ double follow_line(const Param& p, const In& in, double dt, State& state, Progre
   progress.cross_track = line.cross_track;
   progress.distance = std::hypot(in.leg.north - in.motion.x, in.leg.east - in.motion.y);
   const bool turns = in.leg.turn != 0 && !state.returns;
-  const double lead = turns ? radius * std::tan(std::min(std::abs(in.leg.turn), sharpest) / 2) : 0;
+  const double lead = turns ? radius * std::tan(std::min(std::abs(in.leg.turn), p.max_turn) / 2) : 0;
   progress.near =
       (line.left <= std::max(lead, 0.0) && std::abs(line.cross_track) <= miss) || progress.distance < p.reach;
-  progress.left = std::max(line.left, 0.0) / speed_along(in, line.chi);
+  progress.left = std::max(line.left, 0.0) / speed_along(p, in, line.chi);
   return line.chi - integrate(p, dt, progress.cross_track, state);
 }
 
@@ -95,24 +92,24 @@ double follow_circle(const Param& p, const In& in, double dt, State& state, Prog
   progress.near = std::abs(progress.cross_track) < p.reach;
   const double chi = gamma + side * (pi / 2 + integrate(p, dt, progress.cross_track, state));
   if (!progress.near) return chi;
-  const double slip = std::atan2(in.motion.v, std::max(in.motion.u, slowest));
-  return chi + side * p.heading_time * speed_along(in, chi) / std::max(radius, p.reach) - slip;
+  const double slip = std::atan2(in.motion.v, std::max(in.motion.u, p.min_speed));
+  return chi + side * p.heading_time * speed_along(p, in, chi) / std::max(radius, p.reach) - slip;
 }
 
-// Towards its centre from the edge on, until half of the radius is left.
+// Towards its centre from its radius on, until a part of that is left.
 double keep_station(const Param& p, const In& in, State& state, Progress& progress) {
   const double x = in.leg.north - in.motion.x, y = in.leg.east - in.motion.y, radius = std::max(in.leg.radius, p.reach);
   progress.distance = std::hypot(x, y);
   progress.near = progress.distance < radius;
   if (!progress.near || !state.arrived) state.drifted = true;
-  if (progress.distance < radius / 2) state.drifted = false;
+  if (progress.distance < p.station.back * radius) state.drifted = false;
   return std::atan2(y, x);
 }
 
 // Farther off its circle or station than what it swings about them: its time there does not count on.
 bool is_swept_away(const Param& p, const Leg& leg, const Progress& progress) {
   if (leg.course == Course::circle) return std::abs(progress.cross_track) > p.miss;
-  return leg.course == Course::station && progress.distance > station_share * std::max(leg.radius, p.reach);
+  return leg.course == Course::station && progress.distance > p.station.edge * std::max(leg.radius, p.reach);
 }
 
 bool level_is_known(const In& in) { return in.leg.vertical == Vertical::depth || in.instruments.altitude.count > 0; }
@@ -130,7 +127,7 @@ double go_up_and_down(const Param& p, const In& in, double dt, State& state) {
   const double top = std::max(depth_of(in, in.leg.level + up * in.leg.amplitude), 0.0),
                bottom = depth_of(in, in.leg.level - up * in.leg.amplitude);
   if (state.descends ? in.motion.z > bottom - p.level : in.motion.z < top + p.level) state.descends = !state.descends;
-  const double rate = std::max(in.motion.u, slowest) * std::sin(in.leg.slope);
+  const double rate = std::max(in.motion.u, p.min_speed) * std::sin(in.leg.slope);
   state.depth = std::clamp(state.depth + (state.descends ? dt : -dt) * rate, top, std::max(top, bottom));
   return state.depth;
 }
@@ -153,12 +150,12 @@ void LauvGuidance::run(const Param& p, const Tick& tick, const In& in, State& st
   to.depth = yoyo ? go_up_and_down(p, in, dt, state) : depth;
   bool drives = true;
   switch (leg.course) {
-    case Course::line: to.heading = crab(in, follow_line(p, in, dt, state, progress)); break;
-    case Course::circle: to.heading = crab(in, follow_circle(p, in, dt, state, progress)); break;
+    case Course::line: to.heading = crab(p, in, follow_line(p, in, dt, state, progress)); break;
+    case Course::circle: to.heading = crab(p, in, follow_circle(p, in, dt, state, progress)); break;
     case Course::station:
-      to.heading = crab(in, keep_station(p, in, state, progress));
+      to.heading = crab(p, in, keep_station(p, in, state, progress));
       drives = state.drifted;
-      if ((state.arrived || progress.near) && progress.distance < station_share * leg.radius) to.depth = 0;
+      if ((state.arrived || progress.near) && progress.distance < p.station.edge * leg.radius) to.depth = 0;
       break;
     case Course::fix:
     case Course::rest:

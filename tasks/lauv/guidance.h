@@ -11,6 +11,18 @@
 
 namespace jarol::tasks {
 
+/// How it keeps its station, in radii of that.
+struct StationKeeping {
+  double back = 0.5;
+  double edge = station_edge;
+
+  static constexpr auto fields() {
+    using S = StationKeeping;
+    return describe(field<&S::back>("", "from its place, to which it drives back").in(0, 1),
+                    field<&S::edge>("", "within which its time counts, and it drives back at the surface").in(1, 1000));
+  }
+};
+
 /// Without a leg the operator's setpoint goes through. On one, line of sight with an integral (Fossen, Handbook of
 /// Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021, section 12.5; Borhaug, Pavlov, Pettersen, CDC 2008, eq.
 /// 10), n frame, m and rad: the course to keep is
@@ -26,9 +38,9 @@ namespace jarol::tasks {
 /// by what navigation says, but farther off than `miss` and twice that radius, as after a leap of its place or out of a
 /// current, steers for it anew: the line begins where the vehicle is. Depth counts nothing there, as in DUNE. A station
 /// is driven to at its depth, and where the vehicle has been there back to at the surface, on which it floats,
-/// within 2.5 radii, as DUNE does. Its time counts while the vehicle is within them, that of a circle while it is
-/// within `miss` of it. An altitude is not reached before the altimeter has reported one; until then the vehicle keeps
-/// its depth.
+/// within station.edge radii, as DUNE does. Its time counts while the vehicle is within them, that of a circle while it
+/// is within `miss` of it. An altitude is not reached before the altimeter has reported one; until then the vehicle
+/// keeps its depth.
 struct LauvGuidance {
   static constexpr std::string_view summary = "follows the legs of a plan: lines, circles, stations";
   struct Param {
@@ -38,16 +50,29 @@ struct LauvGuidance {
     double heading_time = 1.25;
     double reach = 2;
     double level = 0.3;
-    double miss = 15;
+    double miss = circle_edge;
+    double joins = 4;
+    double max_turn = 100 * degree;
+    double max_drift = 0.9;
+    double min_speed = 0.1;
+    StationKeeping station{};
     static constexpr auto fields() {
       using P = Param;
-      return describe(field<&P::lookahead>("m", "along the path, of the point that it steers for"),
-                      field<&P::integral>("m/s", "of the cross-track error"),
-                      field<&P::turn_rate>("rad/s", "at which the vehicle turns from line to line"),
-                      field<&P::heading_time>("s", "by which the heading is behind its command"),
-                      field<&P::reach>("m", "from a place, where it is reached"),
-                      field<&P::level>("m", "from a depth, where it is reached"),
-                      field<&P::miss>("m", "past the end of a line by so much, to any side, it is not reached"));
+      return describe(
+          field<&P::lookahead>("m", "along the path, of the point that it steers for").in(0.01, 10000),
+          field<&P::integral>("m/s", "of the cross-track error"),
+          field<&P::turn_rate>("rad/s", "at which the vehicle turns from line to line").in(0.001, 10),
+          field<&P::heading_time>("s", "by which the heading is behind its command"),
+          field<&P::reach>("m", "from a place, where it is reached"),
+          field<&P::level>("m", "from a depth, where it is reached"),
+          field<&P::miss>("m", "past the end of a line by so much, to any side, it is not reached"),
+          field<&P::joins>("", "times reach, and a turn's radius, from a line's end: the next begins there")
+              .in(0, 1000),
+          field<&P::max_turn>("rad", "greatest turn from line to line for which it turns ahead of the corner")
+              .in(0, 170 * degree),
+          field<&P::max_drift>("", "greatest sine of the angle by which it heads into a stream").in(0, 1),
+          field<&P::min_speed>("m/s", "least speed by which times and drift are reckoned").in(0.001, 10),
+          field<&P::station>("", "how it keeps that"));
     }
   };
   struct In {

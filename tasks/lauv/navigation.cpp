@@ -52,7 +52,7 @@ void LauvNavigation::run(const Param& p, const Tick& tick, const In& in, State& 
   const Instruments& i = in.instruments;
   Motion& m = state.motion;
   const double dt = seconds(tick.period);
-  state.depth.take({p.depth_timeout, p.depth_error, p.fix_depth, p.fix_depth_error}, i, dt);
+  state.depth.take({p.depth_timeout, p.depth_error, p.fix_depth, p.fix_depth_error, p.surface_fixes, p.water}, i, dt);
   // without a compass the heading is the IMU's
   const double heading = i.heading.count < 0 ? i.attitude.z : i.heading.value;
   if (!state.started) {

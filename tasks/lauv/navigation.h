@@ -25,6 +25,8 @@ struct LauvNavigation {
     double depth_error = 0.6;
     double fix_depth = 0.15;
     double fix_depth_error = 0.3;
+    std::int64_t surface_fixes = 3;
+    Water water{};
     double speed_time = 0.2;
     double drift = 0.05;
     double current_change = 0.003;
@@ -43,6 +45,9 @@ struct LauvNavigation {
               "m", "where the pressure is deeper than the gauge by more, it counts; more than the supervisor allows"),
           field<&P::fix_depth>("m", "greatest depth at which GPS works"),
           field<&P::fix_depth_error>("m", "a depth greater than that by more is wrong beside a fix"),
+          field<&P::surface_fixes>("", "in a row that prove it at the surface: one may have been late, or another's")
+              .in(1, 1000),
+          field<&P::water>("", "by which a pressure is a depth"),
           field<&P::speed_time>("s", "over which the speed log is smoothed"),
           field<&P::drift>("m/s^0.5", "deviation of the way reckoned, after 1 s"),
           field<&P::current_change>("m/s^1.5", "deviation by which the current changes in 1 s"),

@@ -17,16 +17,13 @@ namespace {
 using Param = LauvSupervisor::Param;
 using State = LauvSupervisor::State;
 
-constexpr double watch_time = 2;        // s, over which rates add up
-constexpr double floor_time = 30;       // s, for the sea floor to rise or fall
-constexpr double surface_depth = 0.15;  // m, at which GPS has to work; a little deeper it does not
-constexpr double slowest = 0.5;         // m/s, at which the fins still level it off
-constexpr double heave_time = 2;        // s, for waves and noise to cancel out
+constexpr double in_water = 0.5;        // between what a leak sensor reads, 0 or 1
+constexpr double out_of_reach = -1000;  // m, of depth
 constexpr std::array leak_alarms{Alarm::leak, Alarm::leak1, Alarm::leak2, Alarm::leak3};  // by their order
 
 // By the gauge, or by the pressure where no gauge is fitted.
-double depth_of(const Instruments& i) {
-  return i.depth.count < 0 && i.pressure.count > 0 ? calc_depth(i.pressure.value) : i.depth.value;
+double depth_of(const Param& p, const Instruments& i) {
+  return i.depth.count < 0 && i.pressure.count > 0 ? calc_depth(p.reckoning.water, i.pressure.value) : i.depth.value;
 }
 
 Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
@@ -71,7 +68,7 @@ Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
   }
   // GPS reports nothing under water
   state.since_fix =
-      i.place.count > state.fixes || i.place.count < 0 || depth_of(i) > surface_depth ? 0 : state.since_fix + dt;
+      i.place.count > state.fixes || i.place.count < 0 || depth_of(p, i) > p.fix_depth ? 0 : state.since_fix + dt;
   state.fixes = i.place.count;
   if (found == Alarm::none && state.since_fix > p.gps_timeout) found = Alarm::gps;
   return found == Alarm::none || state.heard ? found : Alarm::no_vehicle;
@@ -81,7 +78,7 @@ Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
 Alarm find_leak(const Instruments& i, Alarm now) {
   Alarm found = Alarm::none;
   for (std::size_t k = hull_sensors; k-- > 0;)
-    if ((i.*leak_readings[k]).value > 0.5 && (found == Alarm::none || found != now)) found = leak_alarms[k];
+    if ((i.*leak_readings[k]).value > in_water && (found == Alarm::none || found != now)) found = leak_alarms[k];
   return found;
 }
 
@@ -95,9 +92,9 @@ double calc_silence(const State& state) {
 
 // Speed of the propeller through quadratic and linear drag, at once and for ever.
 double calc_force(const Param& p, double rpm, double speed) {
-  const double n = rpm * std::numbers::pi / 30;
+  const double n = rpm * std::numbers::pi / 30;  // rad/s
   const double thrust = (p.thrust_coefficient * n - p.advance_coefficient * speed) * std::abs(n);
-  return limited(thrust, p.max_thrust) - p.surge_drag * speed * (1 + std::abs(speed));
+  return limited(thrust, p.max_thrust) - p.surge_drag * speed * (1 + p.reckoning.drag_growth * std::abs(speed));
 }
 
 Alarm find_liar(const Param& p, const Instruments& i, double dt, State& state) {
@@ -112,7 +109,7 @@ Alarm find_liar(const Param& p, const Instruments& i, double dt, State& state) {
   }
   if (moves && !std::exchange(state.speed_started, true)) state.speed = i.velocity.x;
   if (sounds && !std::exchange(state.floor_started, true)) state.floor = floor;
-  const double part = std::min(dt / watch_time, 1.0);
+  const double part = std::min(dt / p.reckoning.angle_time, 1.0);
   const Eigen::Vector3d angle_rates =
       euler_rates(phi, limited(theta, max_pitch_of_rates), {i.rates.x, i.rates.y, i.rates.z});
   state.theta += dt * angle_rates.y();
@@ -122,9 +119,9 @@ Alarm find_liar(const Param& p, const Instruments& i, double dt, State& state) {
   state.psi += part * psi_error;
   state.speed += dt * calc_force(p, i.rpm.value, state.speed) / p.surge_mass;
   const double floor_error = floor - state.floor;
-  state.floor += std::min(dt / floor_time, 1.0) * floor_error;
+  state.floor += std::min(dt / p.reckoning.floor_time, 1.0) * floor_error;
 
-  const double depth = calc_depth(i.pressure.value);
+  const double depth = calc_depth(p.reckoning.water, i.pressure.value);
   const double force_error =
       std::hypot(i.forces.x - gravity * std::sin(theta), i.forces.y + gravity * std::cos(theta) * std::sin(phi),
                  i.forces.z + gravity * std::cos(theta) * std::cos(phi));
@@ -183,11 +180,11 @@ double calc_heave(const Instruments& i) {
 
 bool moves_known(const Instruments& i) { return i.attitude.count > 0 && i.velocity.count > 0; }
 
-void note_heave(const Instruments& i, double dt, State& state) {
+void note_heave(const Param& p, const Instruments& i, double dt, State& state) {
   if (!moves_known(i)) return;
   const double heave = calc_heave(i);
   if (!std::exchange(state.heave_started, true)) state.heave = heave;
-  state.heave += std::min(dt / heave_time, 1.0) * (heave - state.heave);
+  state.heave += std::min(dt / p.levelling.heave_time, 1.0) * (heave - state.heave);
 }
 
 // How much deeper it gets while it levels off: z_dot / u, the slope of its path, times a length of way. The moments of
@@ -197,14 +194,14 @@ void note_heave(const Instruments& i, double dt, State& state) {
 double calc_way_down(const Param& p, const Instruments& i, const State& state) {
   if (!moves_known(i)) return 0;
   const double z_dot = -i.velocity.x * std::sin(i.attitude.y) + std::min(calc_heave(i), state.heave);
-  return p.levelling_length * std::max(z_dot, 0.0) / std::max(i.velocity.x, slowest);
+  return p.levelling_length * std::max(z_dot, 0.0) / std::max(i.velocity.x, p.levelling.min_speed);
 }
 
 Alarm find_exceeded(const Param& p, const LauvSupervisor::In& in, const State& state) {
   const Instruments& i = in.instruments;
   if (in.contact.silence > p.operator_timeout) return Alarm::operator_lost;
   const double way_down = calc_way_down(p, i, state);
-  if (depth_of(i) + way_down > p.max_depth) return Alarm::depth_limit;
+  if (depth_of(p, i) + way_down > p.max_depth) return Alarm::depth_limit;
   // above the floor, not along the beam
   const double altitude = vertical_part(i.altitude.value, i.attitude.x, i.attitude.y);
   if (i.altitude.count > 0 && altitude - way_down < p.min_altitude) return Alarm::altitude_limit;
@@ -253,7 +250,7 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
   const double dt = seconds(tick.period);
   Alarm lost = find_lost(p, in.instruments, dt, state);
   const Alarm liar = find_liar(p, in.instruments, dt, state);
-  note_heave(in.instruments, dt, state);
+  note_heave(p, in.instruments, dt, state);
   const FinCheck fins = check_fins(p, in.fins, dt, state);
   // old readings do not fit each other either
   const bool is_wrong = lost != Alarm::none || liar != Alarm::none;
@@ -268,7 +265,7 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
     if (state.alarm == Alarm::none || found == Alarm::none) {
       state.alarm = found;
       state.fixes_at_alarm = in.instruments.place.count;
-      state.depth_at_alarm = depth_of(in.instruments);
+      state.depth_at_alarm = depth_of(p, in.instruments);
       state.since_alarm = 0;
       state.surfaced = false;
     }
@@ -282,13 +279,13 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
   // a climb gone wrong is given up
   if (!steerable(lost) || !steerable(liar)) state.surfaced = true;
   if (in.instruments.depth.count < 0 && in.instruments.pressure.count < 0) state.surfaced = true;
-  const bool sinks = depth_of(in.instruments) > state.depth_at_alarm + p.climb_sink;
+  const bool sinks = depth_of(p, in.instruments) > state.depth_at_alarm + p.climb_sink;
   if (sinks && state.alarm != Alarm::depth_gauge) state.surfaced = true;
   state.since_alarm += dt;
   if (in.instruments.place.count > state.fixes_at_alarm || state.since_alarm > p.climb_time) state.surfaced = true;
   const bool climbs = steerable(state.alarm) && !state.surfaced;
-  // a depth out of reach: nose up as far as the depth control goes, whatever the gauge reads
-  out.setpoint = {climbs ? -1000.0 : 0.0, in.setpoint.heading, climbs ? p.climb_speed : 0.0};
+  // nose up as far as the depth control goes, whatever the gauge reads
+  out.setpoint = {climbs ? out_of_reach : 0.0, in.setpoint.heading, climbs ? p.climb_speed : 0.0};
   out.condition = {state.alarm, fins};
 }
 

@@ -6,12 +6,42 @@
 #include <string_view>
 
 #include "graph/task.h"
+#include "tasks/lauv/depth_source.h"
 #include "tasks/values/alarm.h"
 #include "tasks/values/fins.h"
 #include "tasks/values/instruments.h"
 #include "tasks/values/lauv.h"
 
 namespace jarol::tasks {
+
+/// What it reckons by itself, to compare instruments with.
+struct Reckoning {
+  double angle_time = 2;
+  double floor_time = 30;
+  double drag_growth = 1;
+  Water water{};
+
+  static constexpr auto fields() {
+    using R = Reckoning;
+    return describe(field<&R::angle_time>("s", "over which rates add up to angles").in(0.1, 1000),
+                    field<&R::floor_time>("s", "in which the sea floor may rise or fall").in(0.1, 10000),
+                    field<&R::drag_growth>("s/m", "by which surge_drag grows per speed, in parts of it").in(0, 100),
+                    field<&R::water>("", "by which a pressure is a depth"));
+  }
+};
+
+/// How it levels off where its fins demand it.
+struct LevellingOff {
+  double min_speed = 0.5;
+  double heave_time = 2;
+
+  static constexpr auto fields() {
+    using L = LevellingOff;
+    return describe(field<&L::min_speed>("m/s", "slowest speed ahead at which its fins level it off").in(0.01, 10),
+                    field<&L::heave_time>("s", "over which its motion across the hull is averaged: no waves, no noise")
+                        .in(0.1, 1000));
+  }
+};
 
 /// An instrument that reports no more is lost, and one that is fitted and never reports anything; one that is not
 /// fitted is not waited for; attitude, speed log, and a depth gauge without a pressure beside it, without which nothing
@@ -30,10 +60,12 @@ struct LauvSupervisor {
     double sensor_timeout = 2.5;
     double vehicle_timeout = 1;
     double gps_timeout = 4;
+    double fix_depth = 0.15;
     double operator_timeout = 5;
     double max_depth = 12;
     double min_altitude = 2;
     double levelling_length = 2.2;
+    LevellingOff levelling{};
     double max_pitch = 50 * std::numbers::pi / 180;
     double min_voltage = 20;
     double depth_error = 0.3;
@@ -44,6 +76,7 @@ struct LauvSupervisor {
     double floor_error = 1.5;
     double error_time = 1;
     double speed_error_time = 3;
+    Reckoning reckoning{};
     double thrust_coefficient = 2.1e-4;
     double advance_coefficient = 0;
     double max_thrust = 14.4;
@@ -59,24 +92,28 @@ struct LauvSupervisor {
           field<&P::sensor_timeout>("s", "an instrument that reports nothing for so long is lost"),
           field<&P::vehicle_timeout>("s", "where none has reported for so long, it is the vehicle that is lost"),
           field<&P::gps_timeout>("s", "the same for GPS at the surface"),
+          field<&P::fix_depth>("m", "greatest depth at which GPS has to report").in(0, 10),
           field<&P::operator_timeout>("s", "greatest silence of the operator"),
           field<&P::max_depth>("m", "limit, for where it would level off"),
           field<&P::min_altitude>("m", "the same, over the sea floor"),
           field<&P::levelling_length>("m", "of the way that it takes to level off, whatever its speed").in(0, 100),
+          field<&P::levelling>("", "how it does"),
           field<&P::max_pitch>("rad", "limit, to either side").in(0, std::numbers::pi / 2),
           field<&P::min_voltage>("V", "limit"),
           field<&P::depth_error>("m", "greatest difference of gauge and pressure"),
           field<&P::heading_error>("rad", "greatest difference of compass and IMU"),
-          field<&P::angle_error>("rad", "greatest difference of attitude and what the rates add up to in 2 s"),
+          field<&P::angle_error>("rad", "greatest difference of attitude and what the rates add up to"),
           field<&P::force_error>("m/s^2", "greatest difference of specific force and gravity"),
           field<&P::speed_error>("m/s", "greatest difference of speed log and propeller"),
           field<&P::floor_error>("m", "greatest step of the sea floor"),
           field<&P::error_time>("s", "how long a difference has to last"),
           field<&P::speed_error_time>("s", "the same for speed"),
+          field<&P::reckoning>("", "what instruments are compared with"),
           field<&P::thrust_coefficient>("N s^2/rad^2", "of the propeller"),
           field<&P::advance_coefficient>("N s^2/(m rad)", "less thrust per speed of the propeller and speed ahead"),
-          field<&P::max_thrust>("N", "of the same"), field<&P::surge_drag>("N s/m", "per speed, and per speed squared"),
-          field<&P::surge_mass>("kg", "with added mass"), field<&P::climb_speed>("m/s", "on the way up"),
+          field<&P::max_thrust>("N", "of the same"),
+          field<&P::surge_drag>("N s/m", "per speed, of one that hardly goes"),
+          field<&P::surge_mass>("kg", "with added mass").in(0.1, 10000), field<&P::climb_speed>("m/s", "on the way up"),
           field<&P::climb_time>("s", "after which it stops the propeller in any case"),
           field<&P::climb_sink>("m", "deeper than at the alarm by so much it stops the propeller, too"),
           field<&P::fins_end_dive>("", "false: with a fin that is stuck or silent it goes on without an alarm"));

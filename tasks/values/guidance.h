@@ -29,8 +29,9 @@ constexpr auto enumerators(Vertical) {
   return std::array<Enumerator<Vertical>, 2>{{{"depth", Vertical::depth}, {"altitude", Vertical::altitude}}};
 }
 
-/// A station is kept within so many of its radii: so far off its time goes on, and it is come back to at the surface.
-constexpr double station_share = 2.5;
+/// Defaults of who steers and of who watches over a plan. Farther off a circle (m), or off a station (in its radii),
+/// its time does not go on; a station is come back to at the surface within them.
+constexpr double circle_edge = 15, station_edge = 2.5;
 
 /// A part of a maneuver. One with another number is another leg, and begins anew.
 struct Leg {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/beyond_range.h"
 #include "tests/distributers/lauv/inline_messages.h"
 #include "tests/distributers/lauv/origin.h"
 #include "tests/distributers/lauv_console.h"
@@ -14,6 +15,7 @@ namespace {
 using namespace jarol;
 using namespace jarol::tests;
 using distributers::Headway;
+using distributers::HeadwayLimits;
 using tasks::Course;
 using tasks::Leg;
 using tasks::Motion;
@@ -21,13 +23,13 @@ using tasks::Progress;
 
 // Until it is given up, ten times a second; seconds, and why. 0: not within ten minutes.
 template <class Where>
-std::pair<double, std::string> given_up(const Leg& leg, Where where) {
+std::pair<double, std::string> given_up(const Leg& leg, Where where, const HeadwayLimits& limits = {}) {
   Headway headway;
   for (Duration now{}; now < 600s; now += 100ms) {
     Progress progress;
     Motion motion;
     where(seconds(now), progress, motion);
-    if (std::string why = headway.note(leg, progress, motion, now); !why.empty()) return {seconds(now), why};
+    if (std::string why = headway.note(limits, leg, progress, motion, now); !why.empty()) return {seconds(now), why};
   }
   return {0, ""};
 }
@@ -90,6 +92,33 @@ TEST_SUITE("distributers/lauv/headway") {
     low.vertical = tasks::Vertical::altitude;
     CHECK(given_up(low, at(0)) == std::pair(90.0, std::string("no headway in 90 s, its altitude is not reached")));
     CHECK(given_up(low, at(-0.012)).first == never);
+  }
+
+  TEST_CASE("how often it looks, how often in vain, and what counts as headway is as it is given") {
+    const Leg line{.course = Course::line};
+    const std::string lost = "no headway in 20 s, 40 m from its place";
+    CHECK(given_up(line, drifting(0), {.period = 10s, .misses = 2}) == std::pair(20.0, lost));
+    CHECK(given_up(line, drifting(-0.06), {.way = 2}).first == 90);
+    CHECK(given_up(line, drifting(-0.06), {.way = 1}).first == never);
+    const auto sinks = [](double t, Progress&, Motion& m) { m.z = 0.015 * t; };
+    const Leg down{.course = Course::circle, .until_level = true, .level = 8};
+    CHECK(given_up(down, sinks, {.level = 0.5}).first == 90);
+    CHECK(given_up(down, sinks, {.level = 0.4}).first == never);
+    const auto off = [](double, Progress& p, Motion&) { p.distance = 26, p.cross_track = 16; };
+    const Leg station{.course = Course::station, .radius = 10}, circle{.course = Course::circle, .radius = 20};
+    CHECK(given_up(station, off, {.station = 3}).first == never);
+    CHECK(given_up(circle, off, {.circle = 20}).first == never);
+  }
+
+  TEST_CASE("it looks once a second at most, once a plan at least, and keeps a station within its radius at least") {
+    check_refused<HeadwayLimits>({
+        {{"period"}, "a duration from 1s to 3600s", "10ms"},
+        {{"misses"}, "a uint32 from 1 to 1000", "0"},
+        {{"way"}, "a double [m] from 0 to 1000", "-1"},
+        {{"level"}, "a double [m] from 0 to 1000", "-1"},
+        {{"circle"}, "a double [m] from 0 to 1000", "-1"},
+        {{"station"}, "a double from 1 to 1000", "0.5"},
+    });
   }
 
   TEST_CASE("a plan without headway has failed, the log book says where, and the propeller stops") {

@@ -28,7 +28,8 @@ struct Gauges {
     for (int k = 0; k < static_cast<int>(20 * seconds + 0.5); ++k) {
       if (gauge_reports) ++i.depth.count;
       if (pressure_reports) ++i.pressure.count;
-      source.take({.timeout = 2.5, .error = 0.6, .fix_depth = 0.15, .fix_error = 0.3}, i, 0.05);
+      source.take({.timeout = 2.5, .error = 0.6, .fix_depth = 0.15, .fix_error = 0.3, .enough = 3, .water = {}}, i,
+                  0.05);
     }
     return source.depth;
   }
@@ -44,8 +45,8 @@ Gauges at(double gauge, double pressure) {
 
 TEST_SUITE("tasks/depth_source") {
   TEST_CASE("98.1 hPa above the air's are a metre") {
-    CHECK(calc_depth(1013.25) == 0);
-    CHECK(calc_depth(1013.25 + 98.1) == doctest::Approx(1));
+    CHECK(calc_depth({}, 1013.25) == 0);
+    CHECK(calc_depth({}, 1013.25 + 98.1) == doctest::Approx(1));
   }
 
   TEST_CASE("the gauge's depth counts, the pressure's from when the gauge has been silent for too long") {

@@ -1,0 +1,103 @@
+// What the helicopter's filter and observers make of parameters that others than the vehicles of specs/ have.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tasks/javiator/blind_observer.h"
+#include "tests/tasks/heard_helicopter.h"
+#include "tests/tasks/javiator/every_15_ms.h"
+
+namespace {
+using namespace jarol::tasks;
+using Eigen::Vector3d;
+using jarol::tests::g_earth;
+using jarol::tests::HeardHelicopter;
+using jarol::tests::tick;
+
+// By a laser in the middle that looks so far from north.
+WallFix seen(const WallSight& sight, double angle, const Eigen::Vector2d& expected = {0, 0}) {
+  return find_place({.north = 8, .east = 8, .sight = sight}, {0, 0, 0}, {std::cos(angle), std::sin(angle), 0}, 8,
+                    expected);
+}
+}  // namespace
+
+TEST_SUITE("tasks/javiator/parameters") {
+  TEST_CASE("which wall a laser meets is sure by the distance that is given, and a place seen up to an angle") {
+    // the walls are 8 / cos and 8 / sin away: 9.1 and 16.7 m
+    CHECK_FALSE(seen({}, 0.5).at_corner);
+    CHECK(seen({.corner = 8}, 0.5).at_corner);
+    // 20 cm more to each of them for a place that may be off by more
+    CHECK_FALSE(seen({.corner = 7.2}, 0.5).at_corner);
+    CHECK(seen({.corner = 7.2, .place_error = 0.2}, 0.5).at_corner);
+    // 60 cm from the eastern wall, which the laser grazes
+    const Eigen::Vector2d beside(-10, 7.4);
+    CHECK(seen({}, 0.15, beside).seen);
+    CHECK_FALSE(seen({.grazing = 0.2}, 0.15, beside).seen);
+  }
+
+  TEST_CASE("where it stands the filter learns by the parts that are given") {
+    HeardHelicopter heard;
+    heard.param.drift.rest = {.bias_part = 0.5, .place_part = 0.25, .pressure_part = 0.75};
+    heard.run(100);
+    heard.sensors.a_z += 0.5;
+    heard.sensors.p = 0.01;
+    heard.sensors.sonar += 0.01;
+    heard.sensors.pressure += 4;
+    heard.run(1);
+    CHECK(heard.state.z.bias == doctest::Approx(-0.25));
+    CHECK(heard.state.slow_roll.bias == doctest::Approx(0.005));
+    CHECK(heard.state.zero_z == doctest::Approx(0.055 + 0.145 + 0.0025));
+    CHECK(heard.state.ground.mean == doctest::Approx(101325 + 3));
+  }
+
+  TEST_CASE("the noise of the pressure is that of as many steps as are given, each up to the greatest") {
+    GroundPressure ground;
+    const RestLearning by{.steps = 3, .max_step = 2};
+    double last = 0;
+    for (const double pressure : {100.0, 101.0, 101.0, 101.0}) {
+      learn(ground, pressure, last, by);
+      last = pressure;
+    }
+    CHECK(ground.readings == 3);
+    CHECK(ground.step_squared == doctest::Approx(0.25));  // 1, halved twice
+    learn(ground, 151, 101, by);
+    CHECK(ground.step_squared == doctest::Approx(0.125 + 0.5 * 2 * 2));
+  }
+
+  TEST_CASE("when the IMU is lost guesses begin as well known as is given, with winds so far apart") {
+    BlindObserver::Param p;
+    p.gusts = 2;
+    p.start = {.place = 0.1, .speed = 0.2, .lean = 0.3, .rate = 0.4, .wind_apart = 0.5, .wind_width = 0.25};
+    p.gust_time = 1000;
+    p.force_noise = p.torque_noise = 0;
+    BlindObserver::State state;
+    BlindObserver::Out out;
+    BlindObserver::In in{.estimate = {.altitude = 100, .lift = g_earth, .rates_known = true}, .lift = {1}};
+    BlindObserver::run(p, tick, in, state, out);
+    in.estimate.rates_known = false;
+    BlindObserver::run(p, {.period = std::chrono::nanoseconds(0)}, in, state, out);
+    for (int i = 0; i < 5; ++i) {
+      const LeanGuess& guess = state.x.guesses[static_cast<std::size_t>(i)];
+      CHECK(guess.wind == doctest::Approx(0.5 * 2 * (i - 2)));
+      CHECK(guess.weight / state.x.guesses[2].weight == doctest::Approx(std::exp(-0.5 * std::pow(0.5 * (i - 2), 2))));
+      for (const auto& [at, deviation] : {std::pair{0, 0.1}, {6, 0.2}, {12, 0.3}, {18, 0.4}, {24, 0.25 * 2}})
+        CHECK(guess.covariance[static_cast<std::size_t>(at)] == doctest::Approx(deviation * deviation));
+    }
+  }
+
+  TEST_CASE("rotors that were at rest count as turning by the least demand that is given") {
+    const auto climbs = [](double min_thrust) {
+      BlindObserver::Param p;
+      p.min_thrust = min_thrust;
+      BlindObserver::State state{.mean_thrust = 0, .felt_thrust = 0.4, .lift = 0};
+      BlindObserver::Out out;
+      BlindObserver::In in{.estimate = {.altitude = 100, .climb = 1}, .lift = {0.4}};
+      state.last_thrust = 0.4;
+      BlindObserver::run(p, tick, in, state, out);
+      return out.motion.lift;
+    };
+    // the spin, a root, brakes a climb
+    const double carries = climbs(0.4) + 0.83;
+    CHECK(carries - climbs(0.1) == doctest::Approx(2 * 0.83));
+  }
+}

@@ -1,0 +1,76 @@
+// What each law's parameters may be: one beyond its range is refused by its name, unit and range.
+#include <doctest/doctest.h>
+
+#include "tasks/javiator/blind_observer.h"
+#include "tasks/javiator/filter.h"
+#include "tasks/lauv/guidance.h"
+#include "tasks/lauv/navigation.h"
+#include "tasks/lauv/supervisor.h"
+#include "tests/beyond_range.h"
+
+namespace {
+using namespace jarol::tasks;
+using jarol::tests::check_refused;
+}  // namespace
+
+TEST_SUITE("tasks/ranges") {
+  TEST_CASE("the supervisor divides by no time, speed or mass that is 0") {
+    check_refused<LauvSupervisor::Param>({
+        {{"fix_depth"}, "a double [m] from 0 to 10", "-0.1"},
+        {{"levelling", "min_speed"}, "a double [m/s] from 0.01 to 10", "0"},
+        {{"levelling", "heave_time"}, "a double [s] from 0.1 to 1000", "0"},
+        {{"reckoning", "angle_time"}, "a double [s] from 0.1 to 1000", "0"},
+        {{"reckoning", "floor_time"}, "a double [s] from 0.1 to 10000", "0"},
+        {{"reckoning", "drag_growth"}, "a double [s/m] from 0 to 100", "-1"},
+        {{"reckoning", "water", "density"}, "a double [kg/m^3] from 500 to 2000", "0"},
+        {{"surge_mass"}, "a double [kg] from 0.1 to 10000", "0"},
+    });
+  }
+
+  TEST_CASE("navigation knows water and air, and asks for a fix at least") {
+    check_refused<LauvNavigation::Param>({
+        {{"surface_fixes"}, "an int64 from 1 to 1000", "0"},
+        {{"water", "density"}, "a double [kg/m^3] from 500 to 2000", "1.025"},
+        {{"water", "air_pressure"}, "a double [hPa] from 0 to 2000", "101325"},
+    });
+  }
+
+  TEST_CASE("guidance divides by no lookahead, rate or speed that is 0, and prepares no turn back") {
+    check_refused<LauvGuidance::Param>({
+        {{"lookahead"}, "a double [m] from 0.01 to 10000", "0"},
+        {{"turn_rate"}, "a double [rad/s] from 0.001 to 10", "0"},
+        {{"joins"}, "a double from 0 to 1000", "-1"},
+        {{"max_turn"}, "a double [rad] from 0 to 2.9670597283903604", "180deg"},
+        {{"max_drift"}, "a double from 0 to 1", "1.1"},
+        {{"min_speed"}, "a double [m/s] from 0.001 to 10", "0"},
+        {{"station", "back"}, "a double from 0 to 1", "1.5"},
+        {{"station", "edge"}, "a double from 1 to 1000", "0.5"},
+    });
+  }
+
+  TEST_CASE("the filter learns by parts of at most 1, and knows walls at distances") {
+    check_refused<JaviatorFilter::Param>({
+        {{"drift", "rest", "bias_part"}, "a double from 0 to 1", "1.1"},
+        {{"drift", "rest", "place_part"}, "a double from 0 to 1", "1.1"},
+        {{"drift", "rest", "pressure_part"}, "a double from 0 to 1", "1.1"},
+        {{"drift", "rest", "steps"}, "a uint32 from 2 to 10000", "1"},
+        {{"drift", "rest", "max_step"}, "a double [Pa] from 0 to 10000", "-1"},
+        {{"room", "sight", "corner"}, "a double [m] from 0 to 100", "-1"},
+        {{"room", "sight", "place_error"}, "a double [m] from 0 to 100", "-1"},
+        {{"room", "sight", "grazing"}, "a double from 0 to 1", "2"},
+    });
+  }
+
+  TEST_CASE("the observer without an IMU divides by no thrust or time that is 0") {
+    check_refused<BlindObserver::Param>({
+        {{"min_thrust"}, "a double from 0.01 to 1", "0"},
+        {{"gust_time"}, "a double [s] from 0.02 to 1000", "0"},
+        {{"start", "place"}, "a double [m] from 0 to 10", "-1"},
+        {{"start", "speed"}, "a double [m/s] from 0 to 10", "-1"},
+        {{"start", "lean"}, "a double [rad] from 0 to 1", "-1"},
+        {{"start", "rate"}, "a double [rad/s] from 0 to 10", "-1"},
+        {{"start", "wind_apart"}, "a double from 0 to 10", "-1"},
+        {{"start", "wind_width"}, "a double from 0 to 10", "-1"},
+    });
+  }
+}
