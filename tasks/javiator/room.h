@@ -43,7 +43,11 @@ struct WallFix {
 };
 
 /// A laser that stands at `lever_n` from the centre of gravity and looks along `along_n` has measured a range; it has
-/// met the wall that is nearer that way from the place expected. A range of 0 is that of nothing.
+/// met the wall that is nearer that way from the place expected. A range of 0 is that of nothing. In m and NED, for
+/// axis i, north or east:
+///   away_i = (wall_i - lever_i - expected_i) / along_i,   wall_i ahead or behind by the sign of along_i
+///   place = wall_i - lever_i - range along_i, of the nearer wall that is not behind, where |along_i| >= grazing
+/// It may be a corner where the other wall is farther by less than corner, and place_error / |along_i| of both.
 WallFix find_place(const Room& room, const Eigen::Vector3d& lever_n, const Eigen::Vector3d& along_n, double range,
                    const Eigen::Vector2d& expected);
 

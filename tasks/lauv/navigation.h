@@ -12,10 +12,14 @@
 
 namespace jarol::tasks {
 
-/// Complementary filters: rates and velocities carry on what slower instruments set right. With exact instruments the
-/// motion is exact but for what a period of the task hides. Depth is that of the best source. Place and current are
-/// those of the place filter, from the first fix on: before, nobody knows where it is. After `restart` fixes in a row
-/// that fit nothing the place begins anew with the next one.
+/// Complementary filters: rates and velocities carry on what slower instruments set right. In SI units and rad, NED and
+/// body axes as in control.h, k(T) = min(dt / T, 1):
+///   phi += dt phi_dot(p, q, r) + k(angle_time) (measured - phi)    (rotations.h, euler_rates); and so theta, and psi
+///   z   += dt (R_nb (u, v, w))_z + k(depth_time) (depth - z)
+///   u   += k(speed_time) (measured - u); and so v and w
+/// With exact instruments the motion is exact but for what a period of the task hides. Depth is that of the best
+/// source. Place and current are those of the place filter, from the first fix on: before, nobody knows where it is.
+/// After `restart` fixes in a row that fit nothing the place begins anew with the next one.
 struct LauvNavigation {
   static constexpr std::string_view summary = "estimates the submarine's motion from its instruments";
   struct Param {

@@ -54,6 +54,18 @@ struct LevellingOff {
 /// a stop when there is none any more: then it is a vehicle at rest, to be commanded anew. Water in the hull takes the
 /// place of any other cause. A vehicle of which nothing was heard since the start is not lost but waited for, with
 /// propeller off. One whose servos report nothing dives all the same, and the condition says that no fin is checked.
+///
+/// What is compared, in SI units and rad, with what it reckons (_r); NED and body axes as in control.h, n the speed of
+/// the propeller in rad/s, f_b and (p, q, r) what the IMU reports:
+///   attitude: theta - theta_r, psi - psi_r;   theta_r_dot = theta_dot(p, q, r) + (theta - theta_r) / angle_time
+///             (rotations.h, euler_rates), and so psi_r
+///   forces:   |f_b + R_bn (0, 0, g)|;   heading: compass - psi;   depth: gauge - calc_depth(pressure)
+///   speed:    u - u_r;   surge_mass u_r_dot = thrust - surge_drag u_r (1 + drag_growth |u_r|),
+///             thrust = (thrust_coefficient n - advance_coefficient u_r) |n|,   |thrust| <= max_thrust
+///   floor:    d - d_r, d = depth + altitude cos(phi) cos(theta);   d_r_dot = (d - d_r) / floor_time
+/// Depth and altitude are those after levelling_length max(z_dot, 0) / max(u, min_speed) more of depth, where
+/// z_dot = -u sin(theta) + min(heave, heave averaged over heave_time), heave = v cos(theta) sin(phi) + w cos(theta)
+/// cos(phi).
 struct LauvSupervisor {
   static constexpr std::string_view summary = "passes the operator's setpoint on, or brings the submarine up";
   struct Param {
