@@ -40,7 +40,8 @@ std::string problems_of(const Beyond& beyond) {
 template <class Param>
 void check_refused(const std::vector<Beyond>& cases) {
   const Param defaults{};
-  CHECK(type_of<Param>().in_range(&defaults));
+  const auto in_range = type_of<Param>().in_range;
+  CHECK((in_range == nullptr || in_range(&defaults)));
   for (const Beyond& c : cases) {
     std::string expected = "task 't' parameter";
     for (const std::string& name : c.path) expected += (&name == &c.path.front() ? " '" : " field '") + name + "'";

@@ -5,7 +5,6 @@
 
 #include "graph/math/geometry.h"
 #include "tasks/add_task.h"
-#include "tasks/javiator/rotor_law.h"
 
 namespace jarol::tasks {
 namespace {
@@ -132,7 +131,7 @@ void AttitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
 }
 
 void MotorMixer::run(const Param& p, const Tick& tick, const In& in, State& state, Out& out) {
-  const RotorLaw law{p.hover, p.exponent, p.voltage};
+  const RotorLaw law{p.hover, p.exponent, p.voltage, p.battery};
   const FlightState doing = in.directive.state;
   out.motors.unlocked = doing != FlightState::halt;
   out.motors.number = static_cast<std::uint32_t>(tick.activation + 1);

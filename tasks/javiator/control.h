@@ -11,6 +11,7 @@
 
 #include "graph/task.h"
 #include "tasks/javiator/approach.h"
+#include "tasks/javiator/rotor_law.h"
 #include "tasks/values/gains.h"
 #include "tasks/values/javiator.h"
 
@@ -206,13 +207,15 @@ struct MotorMixer {
     double voltage = 15.887;
     double lag = 0.05;
     double quick_lag = 0.02;
+    BatteryScale battery{};
     static constexpr auto fields() {
       using P = Param;
       return describe(field<&P::hover>("", "signal that hovers").in(1, max_motor_signal),
                       field<&P::exponent>("", "thrust grows with the signal to this power").in(0.1, 10),
                       field<&P::voltage>("V", "of the battery at which it does; a lower one is made up for"),
                       field<&P::lag>("s", "of the rotors"),
-                      field<&P::quick_lag>("s", "that they get instead, by more signal than is due while they change"));
+                      field<&P::quick_lag>("s", "that they get instead, by more signal than is due while they change"),
+                      field<&P::battery>("", "how much more or less signal makes up for another one"));
     }
   };
   struct In {

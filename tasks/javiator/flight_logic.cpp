@@ -29,7 +29,7 @@ bool lies_over(const FlightLogic::Param& p, const FlightEstimate& e) {
 
 // Once it descends, only the ground can stop it or take its weight.
 bool has_touched(const FlightLogic::Param& p, const FlightEstimate& e, double thrust) {
-  const bool still = e.altitude_known && e.altitude < 0.5 && std::abs(e.climb) < p.still;
+  const bool still = e.altitude_known && e.altitude < p.high && std::abs(e.climb) < p.still;
   return e.answers_known && (still || thrust < p.light);
 }
 
@@ -87,16 +87,16 @@ double find_yaw(const FlightLogic::Param& p, Cause cause, const FlightEstimate& 
 }
 
 // Straight down from where it can stop.
-void stay_here(const FlightEstimate& e, FlightDirective& d) {
+void stay_here(const FlightLogic::Param& p, const FlightEstimate& e, FlightDirective& d) {
   d.roll = d.pitch = 0;
-  d.x = e.x + 0.5 * e.v_x;
-  d.y = e.y + 0.5 * e.v_y;
+  d.x = e.x + p.way.stop_time * e.v_x;
+  d.y = e.y + p.way.stop_time * e.v_y;
 }
 
 void begin_landing(const FlightLogic::Param& p, Cause cause, const FlightEstimate& e, FlightLogic::State& state,
                    FlightDirective& d) {
   enter(FlightState::landing, cause, state, d);
-  stay_here(e, d);
+  stay_here(p, e, d);
   d.yaw = find_yaw(p, cause, e, d.hold_position);
   d.altitude = 0;
 }
@@ -118,7 +118,7 @@ void follow(const FlightLogic::Param& p, const PilotCommand& command, const Flig
   // sent to the ground it comes down where it is, wherever else it is sent
   const bool to_ground = command.altitude <= p.on_ground;
   const bool settles = wants_position && to_ground && !d.stands && e.altitude_known && e.altitude < p.low;
-  if (settles && !state.settles) stay_here(e, d);
+  if (settles && !state.settles) stay_here(p, e, d);
   state.settles = settles;
   if (settles) return;
   d.roll = command.roll;
@@ -170,7 +170,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   }
   state.shut_downs = command.shut_downs;
   state.state_switches = command.state_switches;
-  trim(command, e, state.trim, d);
+  trim(command, e, p.max_trim, state.trim, d);
 
   if (d.state == FlightState::starting) {
     const Cause cause = find_cause(p, in, wants_position, state.unheard);

@@ -23,13 +23,16 @@ struct WayLimits {
   double far = 0.5;
   double fast = 1;
   double wall_margin = 1.5;
+  double stop_time = 0.5;
 
   static constexpr auto fields() {
     using W = WayLimits;
-    return describe(field<&W::far>("m", "from the place, beyond which it is on its way there"),
-                    field<&W::fast>("m/s", "to the side, beyond which it is on its way"),
-                    field<&W::wall_margin>(
-                        "m", "from a wall to the places that it flies to: half of its span, and what it overshoots"));
+    return describe(
+        field<&W::far>("m", "from the place, beyond which it is on its way there"),
+        field<&W::fast>("m/s", "to the side, beyond which it is on its way"),
+        field<&W::wall_margin>("m",
+                               "from a wall to the places that it flies to: half of its span, and what it overshoots"),
+        field<&W::stop_time>("s", "in which it comes to rest where it is to stay, by its speed").in(0, 100));
   }
 };
 
@@ -76,6 +79,7 @@ struct FlightLogic {
     double high = 0.5;
     double low = 0.3;
     double on_ground = 0.02;
+    double max_trim = default_max_trim;
     WayLimits way{};
     LandingTurn turning{};
     static constexpr auto fields() {
@@ -98,7 +102,7 @@ struct FlightLogic {
           field<&P::level>("rad", "of lean, beyond which it may stand on one foot").in(0, std::numbers::pi),
           field<&P::touch_time>("s", "for which it is still or light when it has touched down").in(0.001, 100),
           field<&P::doubt_time>("s", "the same, where it may hover or stand on one foot").in(0.01, 100),
-          field<&P::high_time>("s", "the same, where it measures that it is above half a metre").in(0.01, 100),
+          field<&P::high_time>("s", "the same, where it measures that it is above that of high").in(0.01, 100),
           field<&P::out_of_control>("rad",
                                     "of lean that the IMU shows, beyond which a landing ends with the motors locked")
               .in(0, std::numbers::pi),
@@ -117,6 +121,7 @@ struct FlightLogic {
           field<&P::high>("m", "altitude from which on it touches nothing, if that is measured").in(0, 100),
           field<&P::low>("m", "altitude below which a lean brings feet near the ground, and there is no time to turn"),
           field<&P::on_ground>("m", "altitude commanded up to which it is sent to the ground"),
+          field<&P::max_trim>("rad", "lean, to either side, that may be stored as level").in(0, std::numbers::pi / 2),
           field<&P::way>("", "to another place"), field<&P::turning>("", "a landing that begins in a turn"));
     }
   };

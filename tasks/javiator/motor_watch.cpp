@@ -13,7 +13,7 @@ namespace {
 
 enum : std::size_t { front, right, rear, left };
 
-RotorLaw law_of(const MotorWatch::Param& p) { return {p.hover, p.exponent, p.voltage}; }
+RotorLaw law_of(const MotorWatch::Param& p) { return {p.hover, p.exponent, p.voltage, p.battery}; }
 
 // How the rotors turned it from one sample to another.
 struct Turned {
@@ -82,8 +82,6 @@ std::array<double, 4> lacking(double roll, double pitch) {
   return lacks;
 }
 
-constexpr double of_one_sample = 0.9;
-
 // A motor fails faster than wind rises, and turns it about one axis, as wind seldom does.
 void find_weak(const MotorWatch::Param& p, double roll, double pitch, double time, MotorWatch::State& state) {
   const std::array<double, 4> lacks = lacking(roll - state.wind_roll, pitch - state.wind_pitch);
@@ -91,7 +89,7 @@ void find_weak(const MotorWatch::Param& p, double roll, double pitch, double tim
     const double across = std::abs(lacks[(i + 1) % lacks.size()]);
     // one sample is not enough: signals that were held up on their way act late, which nothing shows
     const double more = (lacks[i] - across - state.doubt - p.allowance) * time;
-    state.evidence[i] = std::max(state.evidence[i] + std::min(more, of_one_sample * p.evidence), 0.0);
+    state.evidence[i] = std::max(state.evidence[i] + std::min(more, p.of_one_sample * p.evidence), 0.0);
     if (state.evidence[i] > p.evidence) state.motors.weak = static_cast<Motor>(i + 1);
   }
   const double part = std::min(time / p.wind_time, 1.0);
@@ -147,8 +145,9 @@ void observe(const MotorWatch::Param& p, const MotorWatch::In& in, double dt, st
   if (sound) find_weak(p, roll, pitch, time, state);
   if (state.motors.weak == Motor::none) return;
   const std::size_t i = static_cast<std::size_t>(state.motors.weak) - 1;
-  const double less = lacking(roll, pitch)[i] / std::max(turned.thrusts[i], 0.1);
-  effectiveness[i] = std::clamp(effectiveness[i] - (sound ? 1 : std::min(p.follow * time, 1.0)) * less, 0.1, 1.0);
+  const double less = lacking(roll, pitch)[i] / std::max(turned.thrusts[i], p.min_thrust);
+  effectiveness[i] =
+      std::clamp(effectiveness[i] - (sound ? 1 : std::min(p.follow * time, 1.0)) * less, p.min_effectiveness, 1.0);
   if (!sound) return;
   // what it lacks is known now
   state.p = s.p;

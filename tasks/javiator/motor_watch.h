@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "graph/task.h"
+#include "tasks/javiator/rotor_law.h"
 #include "tasks/values/javiator.h"
 
 namespace jarol::tasks {
@@ -33,6 +34,10 @@ struct MotorWatch {
     double voltage = 15.887;
     double lag = 0.05;
     double sample_time = 0.005;
+    double of_one_sample = 0.9;
+    double min_thrust = 0.1;
+    double min_effectiveness = 0.1;
+    BatteryScale battery{};
     static constexpr auto fields() {
       using P = Param;
       return describe(
@@ -51,7 +56,12 @@ struct MotorWatch {
           field<&P::hover>("", "signal that hovers, as MotorMixer has it").in(1, max_motor_signal),
           field<&P::exponent>("", "thrust grows with the signal to this power").in(0.1, 10),
           field<&P::voltage>("V", "of the battery at which it does"), field<&P::lag>("s", "of the rotors").in(1e-3, 10),
-          field<&P::sample_time>("s", "from when signals act until the IMU is sampled").in(0, 1));
+          field<&P::sample_time>("s", "from when signals act until the IMU is sampled").in(0, 1),
+          field<&P::of_one_sample>("", "of evidence that one sample may add, as signals that were held up act late")
+              .in(0, 1),
+          field<&P::min_thrust>("", "thrust of hover that what a weak motor lacks is a part of, at least").in(0.01, 1),
+          field<&P::min_effectiveness>("", "of its thrust that a weak motor is taken to give, at least").in(0.01, 1),
+          field<&P::battery>("", "how much signal makes up for another one, as MotorMixer has it"));
     }
   };
   struct In {

@@ -54,7 +54,7 @@ void OriginalLogic::run(const Param& p, const Tick& tick, const In& in, State& s
     state.revs = std::max(state.revs - p.rev_step, 0.0);
   }
   if (d.state == FlightState::halt) state.revs = 0;
-  trim(command, in.estimate, state.trim, d);
+  trim(command, in.estimate, default_max_trim, state.trim, d);
   if (!command.heard) return;
   d.hold_position = command.mode_switches % 2 == 1;
   smooth(d.roll, command.roll);

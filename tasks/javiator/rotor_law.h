@@ -4,19 +4,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/values/describe.h"
+
 namespace jarol::tasks {
 
-/// Thrust in parts of that of hover: thrust = (signal / hover')^exponent, hover' = hover voltage / battery. Another
-/// battery than that of the reference voltage is made up for by 0.8 to 1.3 times the signal; one that nobody has
-/// measured (0 V) is not.
+/// By how much more or less signal another battery than that of the reference voltage is made up for.
+struct BatteryScale {
+  double min = 0.8;
+  double max = 1.3;
+
+  static constexpr auto fields() {
+    using B = BatteryScale;
+    return describe(field<&B::min>("", "times the signal, at least").in(0.1, 1),
+                    field<&B::max>("", "times the signal, at most").in(1, 10));
+  }
+};
+
+/// Thrust in parts of that of hover: thrust = (signal / hover')^exponent, hover' = hover voltage / battery, from
+/// scale.min to scale.max times hover; hover itself by a battery that nobody has measured (0 V).
 struct RotorLaw {
   double hover;     // signal
   double exponent;  // thrust grows with the signal to this power
   double voltage;   // V, at which it hovers with that signal
+  BatteryScale scale;
 
   double full_signal(double battery) const {
-    constexpr double min = 0.8, max = 1.3;
-    return battery > 0 ? hover * std::clamp(voltage / battery, min, max) : hover;
+    return battery > 0 ? hover * std::clamp(voltage / battery, scale.min, scale.max) : hover;
   }
   double signal(double thrust, double battery) const {
     return full_signal(battery) * std::pow(std::max(thrust, 0.0), 1 / exponent);

@@ -16,11 +16,12 @@ struct TrimKeys {
   }
 };
 
-/// What may be stored, rad to either side: a helicopter that hovers at a larger lean has something else.
-inline constexpr double max_trim = 0.1;
+/// Of what may be stored (rad, to either side): a helicopter that hovers at a larger lean has something else.
+inline constexpr double default_max_trim = 0.1;
 
 /// Follows the operator's keys; `pressed` is what they were up to now.
-inline void trim(const PilotCommand& command, const FlightEstimate& estimate, TrimKeys& pressed, FlightDirective& d) {
+inline void trim(const PilotCommand& command, const FlightEstimate& estimate, double max_trim, TrimKeys& pressed,
+                 FlightDirective& d) {
   if (!pressed.begun) {
     d.trim_roll = limited(command.kept_trim_roll, max_trim);
     d.trim_pitch = limited(command.kept_trim_pitch, max_trim);

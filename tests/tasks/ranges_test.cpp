@@ -2,7 +2,10 @@
 #include <doctest/doctest.h>
 
 #include "tasks/javiator/blind_observer.h"
+#include "tasks/javiator/control.h"
 #include "tasks/javiator/filter.h"
+#include "tasks/javiator/flight_logic.h"
+#include "tasks/javiator/motor_watch.h"
 #include "tasks/lauv/guidance.h"
 #include "tasks/lauv/navigation.h"
 #include "tasks/lauv/supervisor.h"
@@ -50,6 +53,7 @@ TEST_SUITE("tasks/ranges") {
 
   TEST_CASE("the filter learns by parts of at most 1, and knows walls at distances") {
     check_refused<JaviatorFilter::Param>({
+        {{"age", "battery"}, "a double [s] from 0.1 to 1000", "0"},
         {{"drift", "rest", "bias_part"}, "a double from 0 to 1", "1.1"},
         {{"drift", "rest", "place_part"}, "a double from 0 to 1", "1.1"},
         {{"drift", "rest", "pressure_part"}, "a double from 0 to 1", "1.1"},
@@ -58,6 +62,26 @@ TEST_SUITE("tasks/ranges") {
         {{"room", "sight", "corner"}, "a double [m] from 0 to 100", "-1"},
         {{"room", "sight", "place_error"}, "a double [m] from 0 to 100", "-1"},
         {{"room", "sight", "grazing"}, "a double from 0 to 1", "2"},
+    });
+  }
+
+  TEST_CASE("a lean that is stored is less than on its side, and a stop takes no time before") {
+    check_refused<FlightLogic::Param>({
+        {{"max_trim"}, "a double [rad] from 0 to 1.5707963267948966", "-0.1"},
+        {{"way", "stop_time"}, "a double [s] from 0 to 100", "-1"},
+    });
+  }
+
+  TEST_CASE("signals are scaled about those of the reference voltage, and what is divided by is not 0") {
+    check_refused<MotorMixer::Param>({
+        {{"battery", "min"}, "a double from 0.1 to 1", "0"},
+        {{"battery", "max"}, "a double from 1 to 10", "0.9"},
+    });
+    check_refused<MotorWatch::Param>({
+        {{"of_one_sample"}, "a double from 0 to 1", "1.1"},
+        {{"min_thrust"}, "a double from 0.01 to 1", "0"},
+        {{"min_effectiveness"}, "a double from 0.01 to 1", "0"},
+        {{"battery", "min"}, "a double from 0.1 to 1", "0"},
     });
   }
 

@@ -4,15 +4,20 @@
 #include <cmath>
 
 #include "tasks/javiator/blind_observer.h"
+#include "tasks/javiator/control.h"
 #include "tests/tasks/heard_helicopter.h"
+#include "tests/tasks/javiator/driven_logic.h"
 #include "tests/tasks/javiator/every_15_ms.h"
+#include "tests/tasks/javiator/watched.h"
 
 namespace {
 using namespace jarol::tasks;
 using Eigen::Vector3d;
 using jarol::tests::g_earth;
 using jarol::tests::HeardHelicopter;
+using jarol::tests::Logic;
 using jarol::tests::tick;
+using jarol::tests::Watched;
 
 // By a laser in the middle that looks so far from north.
 WallFix seen(const WallSight& sight, double angle, const Eigen::Vector2d& expected = {0, 0}) {
@@ -48,6 +53,61 @@ TEST_SUITE("tasks/javiator/parameters") {
     CHECK(heard.state.slow_roll.bias == doctest::Approx(0.005));
     CHECK(heard.state.zero_z == doctest::Approx(0.055 + 0.145 + 0.0025));
     CHECK(heard.state.ground.mean == doctest::Approx(101325 + 3));
+  }
+
+  TEST_CASE("the voltage is averaged over the time that is given") {
+    HeardHelicopter heard = jarol::tests::hovering();
+    heard.param.age.battery = 2;
+    heard.sensors.battery = 14;
+    CHECK(heard.run(1).battery == doctest::Approx(15 - HeardHelicopter::dt / 2));
+  }
+
+  TEST_CASE("a battery is made up for by as much signal as is given, more and less") {
+    const auto signal_at = [](double battery) {
+      const MotorMixer::Param p{.quick_lag = 0.05, .battery = {.min = 0.5, .max = 2}};
+      MotorMixer::State state;
+      MotorMixer::Out out;
+      MotorMixer::run(p, tick,
+                      {.lift = {1}, .directive = {.state = FlightState::flying}, .estimate = {.battery = battery}},
+                      state, out);
+      return out.motors.signals[0];
+    };
+    CHECK(signal_at(15.887 / 0.6) == doctest::Approx(8000 * 0.6));
+    CHECK(signal_at(15.887 / 0.4) == doctest::Approx(8000 * 0.5));
+    CHECK(signal_at(15.887 / 1.9) == doctest::Approx(8000 * 1.9));
+    CHECK(signal_at(15.887 / 2.1) == doctest::Approx(8000 * 2));
+  }
+
+  TEST_CASE("where it lands is where it comes to rest in its time, and a lean is stored up to its limit") {
+    Logic logic;
+    logic.param.way.stop_time = 2;
+    logic.param.max_trim = 0.03;
+    logic.fly();
+    logic.in.estimate.v_x = 0.2;
+    logic.in.estimate.roll = 0.05;
+    ++logic.in.command.trim_stores;
+    logic.press();
+    CHECK(logic.out.directive.state == FlightState::landing);
+    CHECK(logic.out.directive.x == doctest::Approx(0.4));
+    CHECK(logic.out.directive.trim_roll == 0.03);
+  }
+
+  TEST_CASE("a motor is weak the later, the less one sample may add, and gives no less than is given") {
+    const auto periods = [](double of_one_sample) {
+      Watched w;
+      w.param.of_one_sample = of_one_sample;
+      w.body.parts[0] = 0.3;
+      int needed = 0;
+      for (; w.out.motors.weak == Motor::none && needed < 100; ++needed) w.run(1);
+      return needed;
+    };
+    CHECK(periods(0.9) < periods(0.2));
+    Watched dead;
+    dead.param.min_effectiveness = 0.25;
+    dead.body.parts[0] = 0;
+    dead.run(60);
+    CHECK(dead.out.motors.weak == Motor::front);
+    CHECK(dead.out.motors.effectiveness[0] == 0.25);
   }
 
   TEST_CASE("the noise of the pressure is that of as many steps as are given, each up to the greatest") {

@@ -9,17 +9,17 @@ TEST_SUITE("tasks/trim") {
     TrimKeys pressed;
     FlightDirective d;
     PilotCommand command{.kept_trim_roll = 0.02, .kept_trim_pitch = -0.01};
-    trim(command, {.roll = 0.5}, pressed, d);
+    trim(command, {.roll = 0.5}, default_max_trim, pressed, d);
     CHECK(d.trim_roll == 0.02);
     CHECK(d.trim_pitch == -0.01);
     ++command.trim_stores;
-    trim(command, {.roll = 0.05, .pitch = 0.025}, pressed, d);
+    trim(command, {.roll = 0.05, .pitch = 0.025}, default_max_trim, pressed, d);
     CHECK(d.trim_roll == doctest::Approx(0.07));
     CHECK(d.trim_pitch == doctest::Approx(0.015));
-    trim(command, {.roll = 0.05, .pitch = 0.025}, pressed, d);
+    trim(command, {.roll = 0.05, .pitch = 0.025}, default_max_trim, pressed, d);
     CHECK(d.trim_roll == doctest::Approx(0.07));
     ++command.trim_clears;
-    trim(command, {.roll = 0.25}, pressed, d);
+    trim(command, {.roll = 0.25}, default_max_trim, pressed, d);
     CHECK(d.trim_roll == 0);
     CHECK(d.trim_pitch == 0);
   }
@@ -28,11 +28,11 @@ TEST_SUITE("tasks/trim") {
     TrimKeys pressed;
     FlightDirective d;
     PilotCommand command{.kept_trim_roll = 0.3, .kept_trim_pitch = -0.3};
-    trim(command, {}, pressed, d);
+    trim(command, {}, default_max_trim, pressed, d);
     CHECK(d.trim_roll == 0.1);
     CHECK(d.trim_pitch == -0.1);
     ++command.trim_stores;
-    trim(command, {.roll = 0.01, .pitch = 0.25}, pressed, d);
+    trim(command, {.roll = 0.01, .pitch = 0.25}, default_max_trim, pressed, d);
     CHECK(d.trim_roll == 0.1);
     CHECK(d.trim_pitch == 0.1);
   }
