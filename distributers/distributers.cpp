@@ -63,7 +63,7 @@ std::vector<std::unique_ptr<ExternalSystem>> make_external_systems(const Graph& 
       problems.add(type->where,
                    request.subject() + " has type '" + type->text + "'" + did_you_mean(type->text, links) + can);
     else
-      all.back() = known.links.find(type->text)->make_external_systems(request, problems);
+      all.back() = known.links.find(type->text)->make_external_system(request, problems);
   }
   return all;
 }

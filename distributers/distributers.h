@@ -1,4 +1,4 @@
-// What is built in, and the way from a valid graph to its channels.
+// What is built in, and the way from a valid graph to its external systems.
 #pragma once
 
 #include <memory>
@@ -17,9 +17,9 @@ void add_links(NamedList<LinkType>& links);
 /// The names of the link types that a distributer can have.
 std::vector<std::string> links_of(const DistributerClass& distributer, const NamedList<LinkType>& all);
 
-/// The channels of each distributer of the graph, in its order, linked as the file says; each gets its share of the
-/// seed by the distributer's name. What is wrong goes to `problems`, and a null stands in the place. `files` gets what
-/// the links name and is read, if it is not null.
+/// The external system of each distributer of the graph, in its order, linked as the file says; each gets its share of
+/// the seed by the distributer's name. What is wrong goes to `problems`, and a null stands in the place. `files` gets
+/// what the links name and is read, if it is not null.
 std::vector<std::unique_ptr<ExternalSystem>> make_external_systems(
     const Graph& graph, const Registries& known, std::uint64_t seed, Problems& problems,
     std::vector<std::shared_ptr<const Source>>* files = nullptr);

@@ -1,4 +1,4 @@
-// The channels of one distributer while a graph runs: how values of the core reach an external system and come from it.
+// All channels of one distributer while a graph runs: how values of the core reach an external system and come from it.
 #pragma once
 
 #include <cstdint>
@@ -72,7 +72,7 @@ class ExternalSystem {
   /// What is wrong with how its link is set up, though it works, as in "listens where ..."; empty: nothing.
   virtual std::string doubt() const { return {}; }
 
-  /// What was carried until now, for channels that are on a link.
+  /// What was carried until now, for a system that is on a link.
   virtual std::optional<LinkReport> link_report() const { return std::nullopt; }
 
   /// What was not finite within what came, and was left out of a channel's value.

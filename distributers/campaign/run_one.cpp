@@ -33,10 +33,10 @@ bool is_want_of_room(const std::exception& error) {
                                 refused->code() == std::errc::not_enough_memory);
 }
 
-// What a campaign can't do with those channels; empty: it can run them.
-std::string wrong_with(const Graph& graph, const std::vector<std::unique_ptr<ExternalSystem>>& channels) {
-  for (std::size_t i = 0; i < channels.size(); ++i)
-    if (channels[i]->needs_real_clock() || channels[i]->link_report())
+// What a campaign can't do with those systems; empty: it can run them.
+std::string wrong_with(const Graph& graph, const std::vector<std::unique_ptr<ExternalSystem>>& systems) {
+  for (std::size_t i = 0; i < systems.size(); ++i)
+    if (systems[i]->needs_real_clock() || systems[i]->link_report())
       return "distributer '" + graph.distributers[i].name +
              "' has a link to another process; a campaign runs vehicles and scripts that are simulated in its own";
   return "";
@@ -98,7 +98,7 @@ class CampaignRun {
   CampaignRun(const MeasuredGraph& of, RunStart start, std::optional<Duration> length)
       : of_(of),
         run_(of.graph, std::move(start), {.measured = of.measures.conditions}),
-        end_(length.value_or(end_of_mission(run_.channels()))) {}
+        end_(length.value_or(end_of_mission(run_.systems()))) {}
 
   // False: it was to stop.
   bool cover(Result& result, const Oversight& oversight) {
@@ -163,8 +163,8 @@ class CampaignRun {
 const char* const no_end = "it has no mission that ends; say how long a run is, as in --for 10s";
 
 std::string why_not(const Graph& graph, const RunStart& start, std::optional<Duration> length) {
-  if (std::string wrong = wrong_with(graph, start.channels); !wrong.empty()) return wrong;
-  return length || end_of_mission(pointers_to(start.channels)) > Duration{} ? "" : no_end;
+  if (std::string wrong = wrong_with(graph, start.systems); !wrong.empty()) return wrong;
+  return length || end_of_mission(pointers_to(start.systems)) > Duration{} ? "" : no_end;
 }
 
 }  // namespace

@@ -57,9 +57,8 @@ struct LinkType {
   /// Plays a mission from a file, and joins nothing else.
   bool is_mission = false;
 
-  /// What is wrong goes to `problems`, and then there are no channels.
-  std::function<std::unique_ptr<ExternalSystem>(const LinkRequest& request, Problems& problems)>
-      make_external_systems{};
+  /// What is wrong goes to `problems`, and then there is no external system.
+  std::function<std::unique_ptr<ExternalSystem>(const LinkRequest& request, Problems& problems)> make_external_system{};
 
   /// The link alone, for packets of that set; `subject` is what messages call it. Of those types that carry packets in
   /// real time; others have none.
@@ -81,8 +80,8 @@ LinkType link_type(std::string name, std::string summary, std::vector<Key<S>> ow
   LinkType type{std::move(name), summary};
   const std::vector<Key<S>> keys = with_type_key(std::move(summary), std::move(own_keys));
   type.keys.assign(keys.begin(), keys.end());
-  type.make_external_systems = [keys, make](const LinkRequest& request,
-                                            Problems& problems) -> std::unique_ptr<ExternalSystem> {
+  type.make_external_system = [keys, make](const LinkRequest& request,
+                                           Problems& problems) -> std::unique_ptr<ExternalSystem> {
     S spec;
     read_keys(request.yaml(), keys, spec, request.subject(), problems);
     return make(spec, request, problems);

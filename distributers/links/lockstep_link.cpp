@@ -10,8 +10,8 @@ struct LockstepSpec {
   Maybe<std::string> peer, key;
 };
 
-std::unique_ptr<ExternalSystem> make_lockstep_channels(const LockstepSpec& spec, const LinkRequest& request,
-                                                       Problems& problems) {
+std::unique_ptr<ExternalSystem> make_lockstep_system(const LockstepSpec& spec, const LinkRequest& request,
+                                                     Problems& problems) {
   if (!spec.peer) return nullptr;
   LockstepOptions options;
   if (spec.key && !(options.key = read_key_file(*spec.key, problems))) return nullptr;
@@ -36,7 +36,7 @@ LinkType lockstep_link() {
       "lockstep", "a vehicle in another process, on the logical clock",
       {key<&LockstepSpec::peer>("peer", Form::address, "address and port where it listens", true),
        key<&LockstepSpec::key>("key", Form::word, "file of the key that both ends have; default: none")},
-      make_lockstep_channels);
+      make_lockstep_system);
   type.for_vehicles = true;
   return type;
 }

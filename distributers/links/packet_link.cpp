@@ -101,8 +101,8 @@ std::unique_ptr<Link> make_packet_link(std::unique_ptr<Transport> transport, con
   }
 }
 
-std::unique_ptr<ExternalSystem> make_packet_channels(const LinkType& type, const LinkRequest& request,
-                                                     Problems& problems) {
+std::unique_ptr<ExternalSystem> make_packet_system(const LinkType& type, const LinkRequest& request,
+                                                   Problems& problems) {
   try {
     auto distributer = request.make_distributer();
     const messages::MessageSet& set = distributer->message_set();

@@ -44,9 +44,9 @@ std::optional<SecretKey> read_key_file(const Located<std::string>& path, Problem
 std::unique_ptr<Link> make_packet_link(std::unique_ptr<Transport> transport, const PacketLinkSpec& spec,
                                        const messages::MessageSet& set, const std::string& subject, Problems& problems);
 
-/// As make_external_systems of a LinkType that has `make_link`.
-std::unique_ptr<ExternalSystem> make_packet_channels(const LinkType& type, const LinkRequest& request,
-                                                     Problems& problems);
+/// As make_external_system of a LinkType that has `make_link`.
+std::unique_ptr<ExternalSystem> make_packet_system(const LinkType& type, const LinkRequest& request,
+                                                   Problems& problems);
 
 /// Makes a transport of what its mapping says, which is an S; what is wrong with that goes to `problems`, and then
 /// there is none. `subject` is what messages call the link.
@@ -83,8 +83,8 @@ LinkType packet_link(std::string name, std::string summary, CommonKeys common, s
     if (problems.size() > before) transport = nullptr;
     return make_packet_link(std::move(transport), spec, set, subject, problems);
   };
-  type.make_external_systems = [type](const LinkRequest& request, Problems& problems) {
-    return make_packet_channels(type, request, problems);
+  type.make_external_system = [type](const LinkRequest& request, Problems& problems) {
+    return make_packet_system(type, request, problems);
   };
   return type;
 }

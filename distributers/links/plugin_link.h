@@ -1,6 +1,6 @@
 // Link types that a plugin brings: JAROL_PLUGIN(..., Radio) where Radio is a class with a static link_type(), which
-// packet_link (packet_link.h) makes of a Transport (transport.h), or link_type (link_type.h) of channels of another
-// sort. The guardian holds the way to a peer that the transport has shown to its `holder`, and no other.
+// packet_link (packet_link.h) makes of a Transport (transport.h), or link_type (link_type.h) of external systems of
+// another sort. The guardian holds the way to a peer that the transport has shown to its `holder`, and no other.
 #pragma once
 
 #include <concepts>

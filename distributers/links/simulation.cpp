@@ -14,8 +14,8 @@ struct SimulationSpec {
   Maybe<Yaml> parameters;
 };
 
-std::unique_ptr<ExternalSystem> make_simulation_channels(const SimulationSpec& spec, const LinkRequest& request,
-                                                         Problems& problems) {
+std::unique_ptr<ExternalSystem> make_simulated_system(const SimulationSpec& spec, const LinkRequest& request,
+                                                      Problems& problems) {
   if (!spec.vehicle) return nullptr;
   const auto source = request.read_beside(*spec.vehicle, problems);
   if (!source) return nullptr;
@@ -70,7 +70,7 @@ LinkType simulation_link() {
       {key<&SimulationSpec::vehicle>("vehicle", Form::word, "parameter file of the vehicle, relative to this file",
                                      true),
        key<&SimulationSpec::parameters>("parameters", Form::mapping, "changes to the parameters of that file")},
-      make_simulation_channels);
+      make_simulated_system);
   type.for_vehicles = true;
   return type;
 }

@@ -101,11 +101,11 @@ LinkType udp_link() {
       make_udp);
   type.needs_one_of = {"listen", "peer"};
   type.not_together = {{"peers", "peer"}, {"peers", "key"}};
-  type.make_external_systems = [type](const LinkRequest& request, Problems& problems) {
+  type.make_external_system = [type](const LinkRequest& request, Problems& problems) {
     const Yaml* const peers = request.yaml().find("peers");
     if (const std::string why = why_one_peer(*request.whose().distributer_class); peers != nullptr && !why.empty())
       problems.add(peers->where, request.subject() + " has 'peers', but " + why + "; leave it out");
-    return make_packet_channels(type, request, problems);
+    return make_packet_system(type, request, problems);
   };
   return type;
 }

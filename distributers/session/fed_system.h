@@ -1,4 +1,4 @@
-// The channels of a distributer that the program feeds, in place of an external system.
+// What a program feeds to a distributer, in place of its external system.
 #pragma once
 
 #include <vector>

@@ -12,7 +12,7 @@ Duration hand_on_period_of(const GraphRunOptions& options) {
   return std::chrono::seconds(1);
 }
 
-RunStart start_of(Loaded& loaded) { return {{}, std::move(loaded.channels)}; }
+RunStart start_of(Loaded& loaded) { return {{}, std::move(loaded.systems)}; }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
@@ -28,8 +28,8 @@ GraphRun::GraphRun(const PlannedGraph& of, RunStart start, const GraphRunOptions
 
 GraphRun::GraphRun(Loaded&& loaded, const Graph& graph, PlanOfRun plan, RunStart start, const GraphRunOptions& options)
     : OwnedGraph(std::move(loaded)),
-      JoinedGraph(graph, pointers_to(start.channels), options.sinks, options.measured, hand_on_period_of(options)),
-      executor_(std::move(plan), std::move(start.channels),
+      JoinedGraph(graph, pointers_to(start.systems), options.sinks, options.measured, hand_on_period_of(options)),
+      executor_(std::move(plan), std::move(start.systems),
                 {.digest = true,
                  .recorder = sinks().recorder(),
                  .record_truth = true,

@@ -16,8 +16,8 @@ struct Guarded {
 std::vector<Guarded> find_guarded(const Loaded& loaded, std::vector<std::string>& safe,
                                   std::vector<std::string>& unreached) {
   std::vector<Guarded> guarded;
-  for (std::size_t i = 0; i < loaded.channels.size(); ++i) {
-    auto* const linked = dynamic_cast<distributers::LinkedSystem*>(loaded.channels[i].get());
+  for (std::size_t i = 0; i < loaded.systems.size(); ++i) {
+    auto* const linked = dynamic_cast<distributers::LinkedSystem*>(loaded.systems[i].get());
     if (linked == nullptr) continue;
     std::vector<std::string> names;
     for (const Communicator& c : loaded.graph->communicators)

@@ -15,7 +15,7 @@ namespace jarol {
 /// noted, and the run does without.
 class Guard {
  public:
-  /// Before links connect, and before the channels are wrapped; outlives them. `unwanted`: why there is none; empty:
+  /// Before links connect, and before the systems are wrapped; outlives them. `unwanted`: why there is none; empty:
   /// there is one.
   Guard(const Loaded& loaded, const std::string& unwanted, std::optional<int> priority, const NoteSink& note);
 

@@ -18,16 +18,16 @@ namespace jarol {
 
 class JoinedGraph {
  public:
-  /// All that is named outlives it; the channels are those of the graph. As of RunSinks.
-  JoinedGraph(const Graph& graph, std::vector<ExternalSystem*> channels, std::vector<RecordSink*> sinks,
+  /// All that is named outlives it; the systems are those of the graph. As of RunSinks.
+  JoinedGraph(const Graph& graph, std::vector<ExternalSystem*> systems, std::vector<RecordSink*> sinks,
               std::span<const expect::Condition> measured = {}, Duration hand_on_period = std::chrono::seconds(1))
-      : graph_(graph), channels_(std::move(channels)), sinks_(graph, std::move(sinks), measured, hand_on_period) {}
+      : graph_(graph), systems_(std::move(systems)), sinks_(graph, std::move(sinks), measured, hand_on_period) {}
   virtual ~JoinedGraph() = default;
   JoinedGraph(const JoinedGraph&) = delete;
   JoinedGraph& operator=(const JoinedGraph&) = delete;
 
   const Graph& graph() const { return graph_; }
-  const std::vector<ExternalSystem*>& channels() const { return channels_; }
+  const std::vector<ExternalSystem*>& systems() const { return systems_; }
   RunSinks& sinks() { return sinks_; }
   const RunSinks& sinks() const { return sinks_; }
 
@@ -40,7 +40,7 @@ class JoinedGraph {
   virtual Duration now() const = 0;
 
   /// Before the first instant. Throws InputError if there is no way to an external system.
-  void connect(NoteSink note) { linked_.emplace(channels_, std::move(note)); }
+  void connect(NoteSink note) { linked_.emplace(systems_, std::move(note)); }
   /// After the last one.
   void disconnect() { linked_->finish(); }
   /// The same after a run that was attended: waits no longer than for anything else, and notes there what hangs.
@@ -48,20 +48,20 @@ class JoinedGraph {
   std::vector<LinkReport> link_reports() const { return linked_->reports(); }
 
   /// After the last instant: sinks have got all, but for those that have failed: throws what these threw.
-  void close_sinks() { show_mishaps_and_close(sinks_, graph_, channels_, report(), rest()); }
+  void close_sinks() { show_mishaps_and_close(sinks_, graph_, systems_, report(), rest()); }
 
   /// Of a run that was to go on `until` and ended like that.
   RunVerdict judge(Duration until, const RunEnd& end) const {
-    return judge_run(graph_, report(), channels_, sinks_, rest(), until, end);
+    return judge_run(graph_, report(), systems_, sinks_, rest(), until, end);
   }
 
  protected:
-  /// By the destructor of what owns the channels: links end before these.
+  /// By the destructor of what owns the systems: links end before these.
   void unlink() { linked_.reset(); }
 
  private:
   const Graph& graph_;
-  std::vector<ExternalSystem*> channels_;
+  std::vector<ExternalSystem*> systems_;
   RunSinks sinks_;
   std::optional<Linked> linked_;
 };

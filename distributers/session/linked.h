@@ -1,4 +1,4 @@
-// The channels of a run while they are connected.
+// The external systems of a run while they are connected.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@ std::vector<ExternalSystem*> pointers_to(const std::vector<std::unique_ptr<Exter
 class Linked {
  public:
   /// Throws InputError if there is no way to an external system.
-  Linked(std::vector<ExternalSystem*> channels, NoteSink note);
+  Linked(std::vector<ExternalSystem*> systems, NoteSink note);
   ~Linked() { finish(); }
   Linked(const Linked&) = delete;
   Linked& operator=(const Linked&) = delete;
@@ -34,7 +34,7 @@ class Linked {
   std::vector<LinkReport> reports() const;
 
  private:
-  std::vector<ExternalSystem*> channels_;
+  std::vector<ExternalSystem*> systems_;
   NoteSink note_;
 };
 
@@ -43,7 +43,7 @@ void finish_links(Linked& linked, const Graph& graph, RunEnd& end);
 
 /// What is handed over at the end, but for what a link still sends that hangs, and for what it could not send.
 std::vector<FailsafeReport> failsafe_after(const RunEnd& end, const Graph& graph,
-                                           const std::vector<ExternalSystem*>& channels,
+                                           const std::vector<ExternalSystem*>& systems,
                                            std::vector<FailsafeReport> reports);
 
 }  // namespace jarol

@@ -46,8 +46,8 @@ std::vector<expect::TrueValues> true_values_of(const Loaded& loaded, const Recor
   for (std::size_t i = 0; i < loaded.graph->distributers.size(); ++i) {
     const Distributer& distributer = loaded.graph->distributers[i];
     const distributers::LinkType* const link = link_of(distributer, loaded.known->links);
-    const Type* type = i < loaded.channels.size() && loaded.channels[i]
-                           ? loaded.channels[i]->true_type()
+    const Type* type = i < loaded.systems.size() && loaded.systems[i]
+                           ? loaded.systems[i]->true_type()
                            : recorded_type(loaded, distributer.name, recorded);
     const bool is_vehicle = distributer.distributer_class == nullptr || distributer.distributer_class->is_vehicle;
     all.push_back({type != nullptr                                              ? Where::here
@@ -128,7 +128,7 @@ std::string list_unfitted(const Distributer& distributer) {
   return names;
 }
 
-// The channels of missions alone, which are read for what they expect.
+// The systems of missions alone, which are read for what they expect.
 std::vector<std::unique_ptr<ExternalSystem>> missions_of(const Loaded& loaded, Problems& problems) {
   std::vector<Distributer> distributers = loaded.graph->distributers;
   for (Distributer& distributer : distributers) {
@@ -140,8 +140,8 @@ std::vector<std::unique_ptr<ExternalSystem>> missions_of(const Loaded& loaded, P
 
 }  // namespace
 
-Loaded load_without_channels(const std::shared_ptr<const Source>& source, const distributers::Registries& known,
-                             const Overrides& overrides, const NoteSink& note, const RecordingHeader* recorded) {
+Loaded load_without_systems(const std::shared_ptr<const Source>& source, const distributers::Registries& known,
+                            const Overrides& overrides, const NoteSink& note, const RecordingHeader* recorded) {
   Problems problems;
   Loaded loaded = load(read_text(source, overrides, problems), known, note, problems);
   add_conditions(loaded, problems, missions_of(loaded, problems), recorded);
@@ -161,20 +161,20 @@ Loaded load_graph(const std::shared_ptr<const Source>& source, const distributer
   for (Distributer& distributer : loaded.graph->distributers)
     if (fits(distributer.name, without_link)) distributer.link = {};
   loaded.files = {source};
-  loaded.channels = distributers::make_external_systems(*loaded.graph, *loaded.known, seed, problems, &loaded.files);
-  add_conditions(loaded, problems, loaded.channels);
+  loaded.systems = distributers::make_external_systems(*loaded.graph, *loaded.known, seed, problems, &loaded.files);
+  add_conditions(loaded, problems, loaded.systems);
   for (const Distributer& distributer : loaded.graph->distributers)
     if (const std::string unfitted = list_unfitted(distributer); !unfitted.empty())
       note("distributer '" + distributer.name + "': not fitted, and so not checked: " + unfitted);
-  for (std::size_t i = 0; i < loaded.channels.size(); ++i)
-    if (const std::string doubt = loaded.channels[i] ? loaded.channels[i]->doubt() : ""; !doubt.empty())
+  for (std::size_t i = 0; i < loaded.systems.size(); ++i)
+    if (const std::string doubt = loaded.systems[i] ? loaded.systems[i]->doubt() : ""; !doubt.empty())
       note("distributer '" + loaded.graph->distributers[i].name + "' " + doubt);
   return loaded;
 }
 
 const Distributer* find_in_real_time(const Loaded& loaded) {
-  for (std::size_t i = 0; i < loaded.channels.size(); ++i)
-    if (loaded.channels[i]->needs_real_clock()) return &loaded.graph->distributers[i];
+  for (std::size_t i = 0; i < loaded.systems.size(); ++i)
+    if (loaded.systems[i]->needs_real_clock()) return &loaded.graph->distributers[i];
   return nullptr;
 }
 

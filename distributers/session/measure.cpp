@@ -12,7 +12,7 @@ namespace {
 
 Duration length_of_missions(const Loaded& loaded) {
   Duration end{};
-  for (const auto& channels : loaded.channels) end = std::max(end, channels->end().value_or(Duration{}));
+  for (const auto& system : loaded.systems) end = std::max(end, system->end().value_or(Duration{}));
   return end > Duration{} ? end : std::chrono::seconds(10);
 }
 
@@ -40,8 +40,8 @@ Measurement measure_tasks(Loaded& loaded, std::optional<Duration> end) {
     throw Unfinished(
         "this machine's clock of a thread's own time is too coarse to measure tasks; state their 'wcet' yourself");
   // a vehicle in lockstep is connected to; they do not finish, for what that keeps is for the next run
-  for (const auto& channels : loaded.channels) channels->begin();
-  Executor executor(*loaded.graph, std::move(loaded.channels),
+  for (const auto& system : loaded.systems) system->begin();
+  Executor executor(*loaded.graph, std::move(loaded.systems),
                     {.digest = false, .recorder = nullptr, .sharing = Sharing::measure});
   executor.run_until(over);
   if (executor.report().stopped)

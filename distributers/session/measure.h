@@ -23,7 +23,7 @@ struct Measurement {
 };
 
 /// Runs the graph on the virtual clock up to `end`, by default that of its missions, else 10 s; per task the processor
-/// time of the thread that runs it, so that what preempts it does not count. Its channels are used up. Throws
+/// time of the thread that runs it, so that what preempts it does not count. Its systems are used up. Throws
 /// Unfinished if a vehicle in lockstep can't be reached or is lost, or if the machine can't measure so,
 /// InputError where a link goes on by itself, or a fault stops the run.
 Measurement measure_tasks(Loaded& loaded, std::optional<Duration> end = {});

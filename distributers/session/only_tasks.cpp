@@ -63,7 +63,7 @@ OnlyTasks::OnlyTasks(const Graph& graph, const std::vector<std::string>& tasks, 
   recorded_.name = "recorded";
   made_.graph->distributers.push_back(
       {.name = "recorded", .where = {}, .distributer_class = &recorded_, .link = {}, .parameters = {}});
-  made_.channels.push_back(std::make_unique<PublishedSystem>(recording, recorded_.channels));
+  made_.systems.push_back(std::make_unique<PublishedSystem>(recording, recorded_.channels));
 }
 
 // Else the replay would say that it is the same, and nobody has compared it.

@@ -81,7 +81,7 @@ const Entry* find(const std::vector<Entry>& entries, const std::string& name) {
 PlannedGraph::PlannedGraph(const std::shared_ptr<const Source>& source, const distributers::Registries& known,
                            const Overrides& overrides, const NoteSink& note)
     : loaded_(load_graph(source, known, overrides, 0, note)), plan_(*loaded_.graph) {
-  loaded_.channels.clear();
+  loaded_.systems.clear();
 }
 
 bool PlannedGraph::is_of_run(const std::string& path) {
@@ -97,7 +97,7 @@ RunStart PlannedGraph::start(const std::vector<std::string>& set, std::uint64_t 
   change_tasks(set, start, problems);
   const std::vector<Distributer> distributers = change_distributers(set, problems);
   if (problems.empty())
-    start.channels = distributers::make_external_systems(graph(), distributers, *loaded_.known, seed, problems);
+    start.systems = distributers::make_external_systems(graph(), distributers, *loaded_.known, seed, problems);
   problems.throw_if_any();
   return start;
 }

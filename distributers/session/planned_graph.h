@@ -18,7 +18,7 @@ struct RunStart {
     Value values;
   };
   std::vector<Parameters> parameters;
-  std::vector<std::unique_ptr<ExternalSystem>> channels;  // one per distributer of the graph
+  std::vector<std::unique_ptr<ExternalSystem>> systems;  // one per distributer of the graph
 };
 
 /// Constant: threads may start runs at once.
@@ -47,7 +47,7 @@ class PlannedGraph {
   void change_tasks(const std::vector<std::string>& set, RunStart& start, Problems& problems) const;
   std::vector<Distributer> change_distributers(const std::vector<std::string>& set, Problems& problems) const;
 
-  Loaded loaded_;  // its channels were made to see that they can be, and are gone
+  Loaded loaded_;  // its systems were made to see that they can be, and are gone
   Plan plan_;
 };
 

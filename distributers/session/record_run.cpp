@@ -23,7 +23,7 @@ RecordingHeader header_of(const RunOptions& options, const Loaded& loaded) {
           .clock = options.real_clock ? "real" : "virtual",
           .begin = options.resumed != nullptr ? options.resumed->instant() : Duration{},
           .until = options.end,
-          .mission = end_of_mission(pointers_to(loaded.channels)),
+          .mission = end_of_mission(pointers_to(loaded.systems)),
           .seed = options.seed,
           .execution = recorded_execution(options.execution),
           .what = options.recording.what,

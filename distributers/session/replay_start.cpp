@@ -46,8 +46,8 @@ Loaded load_recorded(const Recording& recording, const distributers::Registries&
   const auto load = [&](const std::string& path) {
     if (world == RecordedWorld::systems)
       return load_graph(read_source(path), known, overrides, recording.header().seed, note);
-    return load_without_channels(read_source(path), known, overrides, note,
-                                 world == RecordedWorld::truth ? &recording.header() : nullptr);
+    return load_without_systems(read_source(path), known, overrides, note,
+                                world == RecordedWorld::truth ? &recording.header() : nullptr);
   };
   if (!file.empty()) return load(file);
   SourceSet sources;

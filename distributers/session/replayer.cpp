@@ -38,8 +38,8 @@ Replayer::Replayer(RecordedRun& log, const distributers::Registries& known, Repl
   if (!options_.only.empty()) {
     take_only();
   } else {
-    whole_.channels = begun_ > Duration{} ? resumed_systems(*whole_.graph, log_, std::move(whole_.channels))
-                                          : recorded_systems(whole_, log_);
+    whole_.systems = begun_ > Duration{} ? resumed_systems(*whole_.graph, log_, std::move(whole_.systems))
+                                         : recorded_systems(whole_, log_);
   }
   judges_ = begun_ == Duration{} || whole_.graph->expectations.empty();
   if (!judges_) whole_.graph->expectations.clear();

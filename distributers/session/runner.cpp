@@ -221,7 +221,7 @@ RunOutcome Runner::finish() {
   return {.state = joined_->state(),
           .report = joined_->report(),
           .rest = joined_->rest(),
-          .failsafe = failsafe_after(*end_, graph(), joined_->channels(), joined_->failsafe()),
+          .failsafe = failsafe_after(*end_, graph(), joined_->systems(), joined_->failsafe()),
           .noted = *noted_,
           .end = *end_,
           .clock = clock_ ? &*clock_ : nullptr,
@@ -234,7 +234,7 @@ RunOutcome Runner::finish() {
           .begun = begun_,
           .simulated = joined_->report().simulated,
           .verdict = joined_->judge(until_, *end_),
-          .true_states = end_->hangs ? std::vector<TrueState>{} : find_true_states(graph(), joined_->channels()),
+          .true_states = end_->hangs ? std::vector<TrueState>{} : find_true_states(graph(), joined_->systems()),
           .unwritten = std::move(unwritten),
           .unsaved = saved_ != nullptr ? saved_->lost() : ""};
 }

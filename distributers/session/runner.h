@@ -32,7 +32,7 @@ class Runner {
   /// NeedsRealClock; NotExecutable for a number of workers that can't be.
   static void require_runnable(const RunOptions& options, const Loaded& loaded);
 
-  /// Of a graph that was loaded with its channels. Nothing runs yet, and links are not connected. Throws as above;
+  /// Of a graph that was loaded with its systems. Nothing runs yet, and links are not connected. Throws as above;
   /// NotExecutable, where it is for the verdict of check NotSchedulable; SpecError for what is wrong with the execution
   /// times; CheckpointError where it can't go on from what was saved; InputError where an option can't have
   /// its effect: what can't be saved, a recording that would be empty, a graph that threads can't run.

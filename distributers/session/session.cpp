@@ -30,7 +30,7 @@ void Session::run_for(Duration length) {
 Checkpoint Session::checkpoint() { return run().checkpoint(); }
 void Session::restore(const Checkpoint& checkpoint) { run().restore(checkpoint); }
 Duration Session::now() const { return run().graph_run().executor().now(); }
-Duration Session::end_of_mission() const { return jarol::end_of_mission(run().graph_run().channels()); }
+Duration Session::end_of_mission() const { return jarol::end_of_mission(run().graph_run().systems()); }
 const Graph& Session::graph() const { return run().graph_run().graph(); }
 const Report& Session::report() const { return run().graph_run().executor().report(); }
 void Session::watch(const std::string& pattern) { run().watch(pattern); }
@@ -50,7 +50,7 @@ void Session::for_each_kept(std::string_view name, const Type& type,
 }
 
 double Session::true_value(const std::string& field_of_distributer) const {
-  const std::vector<TrueState> states = find_true_states(graph(), run().graph_run().channels());
+  const std::vector<TrueState> states = find_true_states(graph(), run().graph_run().systems());
   std::vector<std::string> names;
   for (const TrueState& state : states)
     for (const Leaf& leaf : leaves_of(*state.values.type())) {

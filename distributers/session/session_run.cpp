@@ -109,14 +109,14 @@ Loaded Session::Run::feed_in_place_of_links(Loaded loaded, const std::vector<std
     Distributer added;
     added.distributer_class = &without_channel_;
     graph.distributers.push_back(std::move(added));
-    loaded.channels.emplace_back();
+    loaded.systems.emplace_back();
   }
-  fed_.resize(loaded.channels.size());
+  fed_.resize(loaded.systems.size());
   for (std::size_t i = 0; i < fed_.size(); ++i) {
-    if (loaded.channels[i] != nullptr) continue;
+    if (loaded.systems[i] != nullptr) continue;
     auto made = std::make_unique<FedSystem>(*graph.distributers[i].distributer_class);
     fed_[i] = made.get();
-    loaded.channels[i] = std::move(made);
+    loaded.systems[i] = std::move(made);
   }
   return loaded;
 }

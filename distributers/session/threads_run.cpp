@@ -4,8 +4,8 @@ namespace jarol {
 
 ThreadsRun::ThreadsRun(Loaded& loaded, std::vector<RecordSink*> sinks, Duration end,
                        std::optional<Duration> longest_rest, RealTimeOptions real_time, NoteSink note)
-    : JoinedGraph(*loaded.graph, pointers_to(loaded.channels), std::move(sinks)),
-      core_(*loaded.graph, std::move(loaded.channels), JoinedGraph::sinks().recorder()),
+    : JoinedGraph(*loaded.graph, pointers_to(loaded.systems), std::move(sinks)),
+      core_(*loaded.graph, std::move(loaded.systems), JoinedGraph::sinks().recorder()),
       end_(end),
       longest_rest_(longest_rest),
       real_time_(std::move(real_time)),

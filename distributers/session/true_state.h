@@ -15,7 +15,7 @@ struct TrueState {
   Value values;
 };
 
-/// Of each vehicle that is simulated on these channels, one per distributer of the graph.
-std::vector<TrueState> find_true_states(const Graph& graph, const std::vector<ExternalSystem*>& channels);
+/// Of each vehicle that is simulated in these systems, one per distributer of the graph.
+std::vector<TrueState> find_true_states(const Graph& graph, const std::vector<ExternalSystem*>& systems);
 
 }  // namespace jarol

@@ -27,22 +27,22 @@ std::string to_text(const RunVerdict::VehicleMishap& mishap) {
   return "the vehicle of '" + mishap.distributer + "' has " + mishap.text;
 }
 
-std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<ExternalSystem*>& channels,
+std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<ExternalSystem*>& systems,
                                                     const std::optional<RestReport>& rest) {
   std::vector<RunVerdict::VehicleMishap> found;
-  for (std::size_t i = 0; i < channels.size(); ++i) {
+  for (std::size_t i = 0; i < systems.size(); ++i) {
     const std::string& name = graph.distributers[i].name;
-    if (std::string mishap = channels[i]->mishap(); !mishap.empty()) found.push_back({name, std::move(mishap)});
+    if (std::string mishap = systems[i]->mishap(); !mishap.empty()) found.push_back({name, std::move(mishap)});
     if (!rest || !rest->reached) continue;
-    if (const std::string unrest = channels[i]->unrest(); !unrest.empty())
+    if (const std::string unrest = systems[i]->unrest(); !unrest.empty())
       found.push_back({name, "not come to rest: " + unrest});
   }
   return found;
 }
 
-void show_mishaps_and_close(RunSinks& sinks, const Graph& graph, const std::vector<ExternalSystem*>& channels,
+void show_mishaps_and_close(RunSinks& sinks, const Graph& graph, const std::vector<ExternalSystem*>& systems,
                             const Report& report, const std::optional<RestReport>& rest) {
-  for (const RunVerdict::VehicleMishap& mishap : find_mishaps(graph, channels, rest))
+  for (const RunVerdict::VehicleMishap& mishap : find_mishaps(graph, systems, rest))
     sinks.show({.kind = RunEvent::Kind::mishap,
                 .instant = report.simulated,
                 .cause = mishap.text,
@@ -50,14 +50,14 @@ void show_mishaps_and_close(RunSinks& sinks, const Graph& graph, const std::vect
   sinks.close();
 }
 
-std::vector<std::string> find_unheard(const Graph& graph, const std::vector<ExternalSystem*>& channels) {
+std::vector<std::string> find_unheard(const Graph& graph, const std::vector<ExternalSystem*>& systems) {
   std::vector<std::string> found;
-  for (std::size_t i = 0; i < channels.size(); ++i) {
+  for (std::size_t i = 0; i < systems.size(); ++i) {
     const auto takes = [i](const Communicator& c) { return c.distributer == i && c.direction == Direction::in; };
     if (!graph.distributers[i].distributer_class->is_vehicle ||
         std::none_of(graph.communicators.begin(), graph.communicators.end(), takes))
       continue;
-    const std::optional<LinkReport> link = channels[i]->link_report();
+    const std::optional<LinkReport> link = systems[i]->link_report();
     if (link && link->heard == 0) found.push_back(graph.distributers[i].name);
   }
   return found;
@@ -71,9 +71,9 @@ std::string why_cut_short(Duration reached, Duration until, Duration mission) {
   return "";
 }
 
-Duration end_of_mission(const std::vector<ExternalSystem*>& channels) {
+Duration end_of_mission(const std::vector<ExternalSystem*>& systems) {
   Duration end{};
-  for (const ExternalSystem* each : channels) end = std::max(end, each->end().value_or(Duration{}));
+  for (const ExternalSystem* each : systems) end = std::max(end, each->end().value_or(Duration{}));
   return end;
 }
 
@@ -95,22 +95,22 @@ std::vector<std::string> find_left_out(const Graph& graph, const Report& report)
   return lines;
 }
 
-RunVerdict judge_run(const Graph& graph, const Report& report, const std::vector<ExternalSystem*>& channels,
+RunVerdict judge_run(const Graph& graph, const Report& report, const std::vector<ExternalSystem*>& systems,
                      const RunSinks& sinks, const std::optional<RestReport>& rest, Duration until, const RunEnd& end) {
   RunVerdict verdict;
   const std::optional<Duration> rest_begun = rest ? std::optional(rest->begun) : std::nullopt;
   if (!end.hangs) {
     std::string cut_short =
-        why_cut_short(judged_until(rest_begun, until, report.simulated), until, end_of_mission(channels));
+        why_cut_short(judged_until(rest_begun, until, report.simulated), until, end_of_mission(systems));
     // of a session that went back to where it was stopped it is not known how far it was to go
     if (cut_short.empty() && report.stopped)
       cut_short = "a fault ended the run at " + seconds_text(report.simulated) + " s";
     verdict.expectations = sinks.judge(judged_until(rest_begun, until, report.covered), cut_short);
-    verdict.mishaps = find_mishaps(graph, channels, rest);
+    verdict.mishaps = find_mishaps(graph, systems, rest);
   }
   verdict.not_at_rest = not_at_rest_text(graph, rest, end);
   verdict.left_out = find_left_out(graph, report);
-  if (report.instants > 0) verdict.unheard = find_unheard(graph, channels);
+  if (report.instants > 0) verdict.unheard = find_unheard(graph, systems);
   return verdict;
 }
 

@@ -33,17 +33,17 @@ struct RunVerdict {
 /// "the vehicle of 'robostix' has crashed: a rotor met the ground, at 10.32 s".
 std::string to_text(const RunVerdict::VehicleMishap& mishap);
 
-/// What became of the vehicles that are simulated on these channels, one per distributer of the graph; so too where the
+/// What became of the vehicles that are simulated in these systems, one per distributer of the graph; so too where the
 /// run came to rest by what its graph believes, and the vehicle did not.
-std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<ExternalSystem*>& channels,
+std::vector<RunVerdict::VehicleMishap> find_mishaps(const Graph& graph, const std::vector<ExternalSystem*>& systems,
                                                     const std::optional<RestReport>& rest);
 
 /// Shows that to those who look on at a run that is over, and closes them. Throws what a sink threw.
-void show_mishaps_and_close(RunSinks& sinks, const Graph& graph, const std::vector<ExternalSystem*>& channels,
+void show_mishaps_and_close(RunSinks& sinks, const Graph& graph, const std::vector<ExternalSystem*>& systems,
                             const Report& report, const std::optional<RestReport>& rest);
 
 /// The distributers of vehicles from which nothing came over their links, though the graph takes something from them.
-std::vector<std::string> find_unheard(const Graph& graph, const std::vector<ExternalSystem*>& channels);
+std::vector<std::string> find_unheard(const Graph& graph, const std::vector<ExternalSystem*>& systems);
 
 /// A line for each task that faults left without outputs more often than the graph allows.
 std::vector<std::string> find_left_out(const Graph& graph, const Report& report);
@@ -52,11 +52,11 @@ std::vector<std::string> find_left_out(const Graph& graph, const Report& report)
 /// ends at `mission`; else empty.
 std::string why_cut_short(Duration reached, Duration until, Duration mission);
 
-/// Of all scripts on these channels; zero: there is none.
-Duration end_of_mission(const std::vector<ExternalSystem*>& channels);
+/// Of all scripts among these systems; zero: there is none.
+Duration end_of_mission(const std::vector<ExternalSystem*>& systems);
 
 /// All of that, of a run that was to go on `until`, came to rest or not, and ended like that; its sinks are closed.
-RunVerdict judge_run(const Graph& graph, const Report& report, const std::vector<ExternalSystem*>& channels,
+RunVerdict judge_run(const Graph& graph, const Report& report, const std::vector<ExternalSystem*>& systems,
                      const RunSinks& sinks, const std::optional<RestReport>& rest, Duration until, const RunEnd& end);
 
 }  // namespace jarol

@@ -95,7 +95,7 @@ WhatIfOutcome WhatIfs::run(const WhatIf& what_if, RecordSink* beside, const std:
     throw Unfinished("what if " + to_text(what_if) + " is not run to its end, as " + end.ending.reason);
   other.disconnect();
   other.sinks().close();
-  const std::vector<TrueState> truth = find_true_states(other.graph(), other.channels());
+  const std::vector<TrueState> truth = find_true_states(other.graph(), other.systems());
   return {what_if, column_of(other.executor().state(), other.executor().report(), truth, other.judge(setup_.end, end)),
           compared.differences()};
 }

@@ -48,7 +48,7 @@ class AttendedRun {
   // by the thread that attends, while `cover` may be under way
 
   /// `cover` returns when the instant under way is done, and nothing is handed over any more but every `safe` that
-  /// there is. A channel that is still in use at that time gets none.
+  /// there is. An external system that is still in use at that time gets none.
   virtual void close(const Ending& ending, Futex::Time patience) = 0;
   virtual std::optional<Holdup> holdup() const { return std::nullopt; }
   /// Which it is in now, on either clock.

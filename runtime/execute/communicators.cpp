@@ -26,17 +26,17 @@ std::vector<std::size_t> all_of(std::size_t count) {
 
 }  // namespace
 
-Communicators::Communicators(Run& run, std::vector<std::unique_ptr<ExternalSystem>> channels, Truth truth,
+Communicators::Communicators(Run& run, std::vector<std::unique_ptr<ExternalSystem>> systems, Truth truth,
                              std::span<const expect::Condition> measured)
-    : run_(run), channels_(std::move(channels)), failsafe_(run.graph), are_any_(!run.graph.communicators.empty()) {
-  assert(channels_.size() == run.graph.distributers.size());
+    : run_(run), systems_(std::move(systems)), failsafe_(run.graph), are_any_(!run.graph.communicators.empty()) {
+  assert(systems_.size() == run.graph.distributers.size());
   outs_.reserve(run.plan.outs.size());
   ins_.reserve(run.plan.ins.size());
   if (truth != Truth::none && run.publisher.recorder() != nullptr)
     for (const std::size_t distributer :
-         truth == Truth::all ? all_of(channels_.size()) : watched_vehicles(run.graph, measured))
-      if (const Type* type = channels_[distributer]->true_type()) watched_.push_back({distributer, Value(*type)});
-  if (run.may_rest) rest_ = std::make_unique<Rest>(run.state, channels_);
+         truth == Truth::all ? all_of(systems_.size()) : watched_vehicles(run.graph, measured))
+      if (const Type* type = systems_[distributer]->true_type()) watched_.push_back({distributer, Value(*type)});
+  if (run.may_rest) rest_ = std::make_unique<Rest>(run.state, systems_);
 }
 
 void Communicators::begin(Turn& turn, const Now& now) {
@@ -76,7 +76,7 @@ void Communicators::gather(const Now& now) {
 // For a call of it, which whoever attends the run sees until the next one.
 ExternalSystem& Communicators::call(std::size_t distributer) {
   called_.store(static_cast<std::uint32_t>(distributer + 1), std::memory_order_relaxed);
-  return *channels_[distributer];
+  return *systems_[distributer];
 }
 
 template <class Do>
@@ -90,8 +90,8 @@ void Communicators::attempt(Do act) {
 void Communicators::reach(Duration instant) {
   const MemoryScope outside(nullptr);
   if (resting() && !std::exchange(ending_known_, true))
-    for (std::size_t i = 0; i < channels_.size(); ++i) call(i).ending();
-  for (std::size_t i = 0; i < channels_.size(); ++i) call(i).reach(instant);
+    for (std::size_t i = 0; i < systems_.size(); ++i) call(i).ending();
+  for (std::size_t i = 0; i < systems_.size(); ++i) call(i).reach(instant);
   for (WatchedVehicle& vehicle : watched_) {
     call(vehicle.distributer).copy_true_values(vehicle.values.data());
     const auto output = static_cast<std::uint32_t>(run_.plan.outputs.size() + vehicle.distributer);
@@ -168,18 +168,18 @@ void Communicators::close(Futex::Time patience, bool outliving, const std::funct
   }
   const MemoryScope outside(nullptr);
   if (use == Use::free)
-    failsafe_.hand_over_at_end(channels_, time(), outliving);
+    failsafe_.hand_over_at_end(systems_, time(), outliving);
   else
-    failsafe_.fail_at_end(channels_, time(), outliving, busy_link_text);
+    failsafe_.fail_at_end(systems_, time(), outliving, busy_link_text);
 }
 
 void Communicators::serialize(Archive& archive) {
   const MemoryScope outside(nullptr);
   archive(refused_);
   failsafe_.serialize(archive);
-  for (std::size_t i = 0; i < channels_.size(); ++i) {
+  for (std::size_t i = 0; i < systems_.size(); ++i) {
     try {
-      channels_[i]->serialize(archive);
+      systems_[i]->serialize(archive);
     } catch (const NotSaveable& error) {
       throw NotSaveable("distributer '" + run_.graph.distributers[i].name + "': " + error.what());
     }
@@ -188,7 +188,7 @@ void Communicators::serialize(Archive& archive) {
 
 std::uint64_t Communicators::non_finite_inputs() const {
   std::uint64_t sum = refused_;
-  for (const auto& channels : channels_) sum += channels->non_finite_inputs();
+  for (const auto& system : systems_) sum += system->non_finite_inputs();
   return sum;
 }
 

@@ -1,5 +1,5 @@
-// The communicators of a run and the channels behind them: steps 0, 2 and 3 of each instant. Nobody else may use the
-// channels then, and nothing uses them once the run is closed.
+// The communicators of a run and the external systems behind them: steps 0, 2 and 3 of each instant. Nobody else may
+// use the systems then, and nothing uses them once the run is closed.
 #pragma once
 
 #include <atomic>
@@ -25,7 +25,7 @@ enum class Truth { none, of_conditions, all };
 class Communicators {
  public:
   /// One ExternalSystem per distributer, in the order of the graph. The run outlives it.
-  Communicators(Run& run, std::vector<std::unique_ptr<ExternalSystem>> channels, Truth truth,
+  Communicators(Run& run, std::vector<std::unique_ptr<ExternalSystem>> systems, Truth truth,
                 std::span<const expect::Condition> measured = {});
 
   /// An instant, from its begin until `act` has been called.
@@ -82,7 +82,7 @@ class Communicators {
     const std::uint32_t number = called_.load(std::memory_order_relaxed);
     return number == 0 ? std::nullopt : std::optional<std::size_t>(number - 1);
   }
-  bool on_link(std::size_t distributer) const { return channels_[distributer]->needs_real_clock(); }
+  bool on_link(std::size_t distributer) const { return systems_[distributer]->needs_real_clock(); }
 
   const std::vector<FailsafeReport>& failsafe() const { return failsafe_.reports(); }
   /// Values from outside that were not taken as they were not finite.
@@ -104,7 +104,7 @@ class Communicators {
   void take(const CommunicatorAction& in, Duration instant);
 
   Run& run_;
-  std::vector<std::unique_ptr<ExternalSystem>> channels_;
+  std::vector<std::unique_ptr<ExternalSystem>> systems_;
   Failsafe failsafe_;
   const bool are_any_;
   std::vector<const CommunicatorAction*> outs_, ins_;  // due now
@@ -114,7 +114,7 @@ class Communicators {
     Value values;
   };
   std::vector<WatchedVehicle> watched_;  // whose true values are recorded
-  // of the channels, by an instant or by whoever closed the run
+  // of the systems, by an instant or by whoever closed the run
   enum class Use : std::uint32_t { free, covering, closed };
   std::atomic<Use> use_{Use::free};
   std::atomic<std::uint32_t> called_{0};  // the number of the distributer from 1, 0: none

@@ -33,10 +33,9 @@ struct RunningHere {
 
 }  // namespace
 
-Executor::Executor(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSystem>> channels,
-                   const ExecutorOptions& options)
+Executor::Executor(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSystem>> systems, const ExecutorOptions& options)
     : run_(std::move(plan), options_of_run(options)),
-      communicators_(run_, std::move(channels), truth_of(options), options.measured),
+      communicators_(run_, std::move(systems), truth_of(options), options.measured),
       clock_(options.clock),
       stops_(!options.misses),
       dispatcher_(make_dispatcher(options)) {

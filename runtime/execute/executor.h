@@ -45,7 +45,7 @@ struct ExecutorOptions {
 class Executor {
  public:
   /// One ExternalSystem per distributer of the graph, in its order. Graph and recorder outlive the executor.
-  Executor(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSystem>> channels, const ExecutorOptions& options = {});
+  Executor(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSystem>> systems, const ExecutorOptions& options = {});
 
   /// Before the first instant: the run has other parameters of that task than its graph; a value of their type.
   void start_with(std::size_t task, const void* parameters) { run_.state.start_with(task, parameters); }

@@ -46,20 +46,19 @@ void Failsafe::serialize(Archive& archive) {
 }
 
 template <class Do>
-void Failsafe::at_end(std::span<const std::unique_ptr<ExternalSystem>> channels, Duration time, bool outliving,
-                      Do act) {
+void Failsafe::at_end(std::span<const std::unique_ptr<ExternalSystem>> systems, Duration time, bool outliving, Do act) {
   for (FailsafeReport& report : reports_) {
     const Communicator& out = graph_.communicators[report.communicator];
-    ExternalSystem& to = *channels[*out.distributer];
+    ExternalSystem& to = *systems[*out.distributer];
     if (outliving && !to.outlives_run()) continue;
     const std::uint64_t unsent = to.unsent();
     report.at_end = {.time = time, .failure = act(out, to), .unsent = unsent};
   }
 }
 
-void Failsafe::hand_over_at_end(std::span<const std::unique_ptr<ExternalSystem>> channels, Duration time,
+void Failsafe::hand_over_at_end(std::span<const std::unique_ptr<ExternalSystem>> systems, Duration time,
                                 bool outliving) {
-  at_end(channels, time, outliving, [](const Communicator& out, ExternalSystem& to) -> std::string {
+  at_end(systems, time, outliving, [](const Communicator& out, ExternalSystem& to) -> std::string {
     try {
       to.hand_over(out.channel, out.safe->data());
       to.flush();
@@ -70,9 +69,9 @@ void Failsafe::hand_over_at_end(std::span<const std::unique_ptr<ExternalSystem>>
   });
 }
 
-void Failsafe::fail_at_end(std::span<const std::unique_ptr<ExternalSystem>> channels, Duration time, bool outliving,
+void Failsafe::fail_at_end(std::span<const std::unique_ptr<ExternalSystem>> systems, Duration time, bool outliving,
                            const std::string& why) {
-  at_end(channels, time, outliving, [&](const Communicator&, ExternalSystem&) { return why; });
+  at_end(systems, time, outliving, [&](const Communicator&, ExternalSystem&) { return why; });
 }
 
 }  // namespace jarol

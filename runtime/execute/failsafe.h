@@ -64,9 +64,9 @@ class Failsafe {
 
   /// Hands over every safe value that there is: no command follows. What is published does not change by it. With
   /// `outliving` only to external systems that outlive the run.
-  void hand_over_at_end(std::span<const std::unique_ptr<ExternalSystem>> channels, Duration time, bool outliving);
+  void hand_over_at_end(std::span<const std::unique_ptr<ExternalSystem>> systems, Duration time, bool outliving);
   /// It can't: notes why.
-  void fail_at_end(std::span<const std::unique_ptr<ExternalSystem>> channels, Duration time, bool outliving,
+  void fail_at_end(std::span<const std::unique_ptr<ExternalSystem>> systems, Duration time, bool outliving,
                    const std::string& why);
 
   void serialize(Archive& archive);
@@ -84,7 +84,7 @@ class Failsafe {
   };
 
   template <class Do>
-  void at_end(std::span<const std::unique_ptr<ExternalSystem>> channels, Duration time, bool outliving, Do act);
+  void at_end(std::span<const std::unique_ptr<ExternalSystem>> systems, Duration time, bool outliving, Do act);
 
   const Graph& graph_;
   std::vector<Duration> newest_;  // per communicator

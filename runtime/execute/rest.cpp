@@ -5,18 +5,18 @@
 
 namespace jarol {
 
-Rest::Rest(RunState& state, const std::vector<std::unique_ptr<ExternalSystem>>& channels)
+Rest::Rest(RunState& state, const std::vector<std::unique_ptr<ExternalSystem>>& systems)
     : at_end_(*state.plan.graph.at_end),
       state_(state),
       commands_(state.plan.graph.communicators.size()),
       signals_(at_end_.until.signals.size()) {
   const Graph& graph = state.plan.graph;
-  for (std::size_t i = 0; i < channels.size(); ++i)
-    missions_.push_back(!graph.distributers[i].distributer_class->is_vehicle && channels[i]->end().has_value());
-  std::vector<Ins> all(channels.size());
+  for (std::size_t i = 0; i < systems.size(); ++i)
+    missions_.push_back(!graph.distributers[i].distributer_class->is_vehicle && systems[i]->end().has_value());
+  std::vector<Ins> all(systems.size());
   for (std::size_t i = 0; i < graph.communicators.size(); ++i) {
     const Communicator& c = graph.communicators[i];
-    systems_.push_back(c.distributer ? channels[*c.distributer].get() : nullptr);
+    systems_.push_back(c.distributer ? systems[*c.distributer].get() : nullptr);
     if (c.direction != Direction::in || !c.distributer ||
         !graph.distributers[*c.distributer].distributer_class->is_vehicle)
       continue;

@@ -24,7 +24,7 @@ struct RestReport {
 class Rest {
  public:
   /// Of a graph that states it, and taps the signals of its condition. All outlive this.
-  Rest(RunState& state, const std::vector<std::unique_ptr<ExternalSystem>>& channels);
+  Rest(RunState& state, const std::vector<std::unique_ptr<ExternalSystem>>& systems);
 
   Duration longest() const { return at_end_.longest; }
   /// Nothing more is taken from that distributer: it plays a mission, which is over.

@@ -13,21 +13,21 @@
 
 namespace jarol {
 
-JarolCore::JarolCore(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSystem>> channels, Recorder* recorder)
+JarolCore::JarolCore(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSystem>> systems, Recorder* recorder)
     : run_(std::move(plan), {.recorder = recorder, .may_rest = true}),
       graph_(run_.graph),
-      channels_(std::move(channels)),
+      systems_(std::move(systems)),
       period_(choose_period()),
       failsafe_(graph_) {
-  for (std::size_t i = 0; i < channels_.size(); ++i) channel_mutexes_.push_back(std::make_unique<std::mutex>());
-  ending_known_.resize(channels_.size());
+  for (std::size_t i = 0; i < systems_.size(); ++i) system_mutexes_.push_back(std::make_unique<std::mutex>());
+  ending_known_.resize(systems_.size());
   threads_report_.execution.resize(graph_.tasks.size());
   gather();
-  if (run_.may_rest) rest_ = std::make_unique<Rest>(run_.state, channels_);
+  if (run_.may_rest) rest_ = std::make_unique<Rest>(run_.state, systems_);
   if (recorder == nullptr) return;
   recorder->never_wait();
   for (const std::size_t distributer : watched_vehicles(graph_))
-    if (const Type* type = channels_[distributer]->true_type())
+    if (const Type* type = systems_[distributer]->true_type())
       watched_.push_back(std::make_unique<Watched>(distributer, *type));
 }
 
@@ -162,7 +162,7 @@ Finish JarolCore::finish(std::optional<Futex::Time> patience) {
     part->thread.join();
   }
   run_.report.non_finite_inputs = refused_inputs_;
-  for (const auto& channels : channels_) run_.report.non_finite_inputs += channels->non_finite_inputs();
+  for (const auto& system : systems_) run_.report.non_finite_inputs += system->non_finite_inputs();
   run_.report.simulated = now();
   // the instant at which a run is broken off was run
   run_.report.covered = now() + Duration(reached_end_ || threads_report_.rounds == 0 ? 0 : 1);
@@ -186,12 +186,12 @@ void JarolCore::close(Futex::Time patience) {
   if (closed_.exchange(true)) return;
   const Duration time = now();
   std::vector<std::unique_lock<std::mutex>> locks;
-  for (const auto& mutex : channel_mutexes_)
+  for (const auto& mutex : system_mutexes_)
     if (!lock_until(locks.emplace_back(*mutex, std::defer_lock), patience)) {
-      failsafe_.fail_at_end(channels_, time, false, busy_link_text);
+      failsafe_.fail_at_end(systems_, time, false, busy_link_text);
       return;
     }
-  failsafe_.hand_over_at_end(channels_, time, false);
+  failsafe_.hand_over_at_end(systems_, time, false);
 }
 
 std::optional<HangingTask> JarolCore::running() const {

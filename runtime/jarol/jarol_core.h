@@ -42,7 +42,7 @@ class JarolCore {
   /// InputError for a graph whose periods can't be counted in those of the sensor thread, or with deep
   /// values between threads. `recorder`: gets what is published, and true values for the conditions of the graph; or
   /// null.
-  JarolCore(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSystem>> channels, Recorder* recorder = nullptr);
+  JarolCore(PlanOfRun plan, std::vector<std::unique_ptr<ExternalSystem>> systems, Recorder* recorder = nullptr);
   ~JarolCore();
 
   /// Covers the instants before `end`, unless a fault stops it or it is interrupted; once. `prepare` is called in each
@@ -149,9 +149,9 @@ class JarolCore {
 
   Run run_;  // of the core thread
   const Graph& graph_;
-  std::vector<std::unique_ptr<ExternalSystem>> channels_;
-  std::vector<std::unique_ptr<std::mutex>> channel_mutexes_;  // sensor and actuator thread share a vehicle's
-  std::vector<char> ending_known_;                            // per channel, guarded likewise
+  std::vector<std::unique_ptr<ExternalSystem>> systems_;
+  std::vector<std::unique_ptr<std::mutex>> system_mutexes_;  // sensor and actuator thread share a vehicle's
+  std::vector<char> ending_known_;                           // per system, guarded likewise
   Duration period_{};
   std::vector<std::unique_ptr<Watched>> watched_;
   std::vector<Carried> ins_, outs_;

@@ -50,21 +50,21 @@ void JarolCore::run_sensor(Duration end) {
 // Values from outside into the ports of one side.
 void JarolCore::sense(bool terminal, std::int64_t round) {
   const Duration now(round * period_.count());
-  for (std::size_t i = 0; i < channels_.size(); ++i) {
+  for (std::size_t i = 0; i < systems_.size(); ++i) {
     if (graph_.distributers[i].distributer_class->is_vehicle == terminal) continue;
-    const std::lock_guard lock(*channel_mutexes_[i]);
+    const std::lock_guard lock(*system_mutexes_[i]);
     if (closed_.load(std::memory_order_relaxed)) return;
     const std::int64_t rest_from = rest_from_.load(std::memory_order_acquire);
-    if (rest_from >= 0 && round >= rest_from && !std::exchange(ending_known_[i], char{1})) channels_[i]->ending();
-    channels_[i]->reach(now);
+    if (rest_from >= 0 && round >= rest_from && !std::exchange(ending_known_[i], char{1})) systems_[i]->ending();
+    systems_[i]->reach(now);
     for (const auto& vehicle : watched_) {
       if (vehicle->distributer != i) continue;
-      channels_[i]->copy_true_values(vehicle->outside.data());
+      systems_[i]->copy_true_values(vehicle->outside.data());
       vehicle->port.write(vehicle->outside.data());
     }
     for (Carried& in : ins_) {
       const Communicator& c = graph_.communicators[in.communicator];
-      if (c.distributer != i || !in.outside.due(round) || !channels_[i]->take(c.channel, in.room.data())) continue;
+      if (c.distributer != i || !in.outside.due(round) || !systems_[i]->take(c.channel, in.room.data())) continue;
       if (c.type->finite(in.room.data()))
         in.port->write(in.room.data());
       else
@@ -172,9 +172,9 @@ void JarolCore::act(bool terminal) {
   for (Carried& out : outs_) {
     const Communicator& c = graph_.communicators[out.communicator];
     if (!c.distributer || out.terminal != terminal || !out.port->read(out.room.data())) continue;
-    const std::lock_guard lock(*channel_mutexes_[*c.distributer]);
+    const std::lock_guard lock(*system_mutexes_[*c.distributer]);
     if (closed_.load(std::memory_order_relaxed)) return;
-    channels_[*c.distributer]->hand_over(c.channel, out.room.data());
+    systems_[*c.distributer]->hand_over(c.channel, out.room.data());
   }
 }
 

@@ -157,11 +157,11 @@ TEST_SUITE("distributers/registries") {
   TEST_CASE("a link type of another's is named, checked and made as those that are built in") {
     Problems problems;
     const Graph graph = tests::graph_of(known().graph, text_of("{type: radio, frequency: 433}"));
-    const auto channels = make_external_systems(graph, known(), 0, problems);
+    const auto systems = make_external_systems(graph, known(), 0, problems);
     problems.throw_if_any();
-    REQUIRE(channels.size() == 1);
-    CHECK(channels[0]->link_report()->link == "radio at 433 MHz");
-    CHECK(channels[0]->needs_real_clock());
+    REQUIRE(systems.size() == 1);
+    CHECK(systems[0]->link_report()->link == "radio at 433 MHz");
+    CHECK(systems[0]->needs_real_clock());
   }
 
   TEST_CASE("what is wrong with its keys is reported as with those that are built in") {
@@ -185,22 +185,22 @@ TEST_SUITE("distributers/registries") {
                                         "graph: g\ntiming: {period: 10ms}\n"
                                         "distributers: {sea: {type: Probe, link: {type: simulation, vehicle: " +
                                             path.string() + "}}}\n");
-    const auto channels = make_external_systems(graph, known(), 0, problems);
+    const auto systems = make_external_systems(graph, known(), 0, problems);
     std::filesystem::remove(path);
     problems.throw_if_any();
     double depth = -1;
     const double goal = 10;
-    channels[0]->reach(Duration{});
-    CHECK(channels[0]->take(0, &depth));
+    systems[0]->reach(Duration{});
+    CHECK(systems[0]->take(0, &depth));
     CHECK(depth == 0);
-    channels[0]->hand_over(1, &goal);
-    channels[0]->reach(std::chrono::milliseconds(10));
-    CHECK(channels[0]->take(0, &depth));
+    systems[0]->hand_over(1, &goal);
+    systems[0]->reach(std::chrono::milliseconds(10));
+    CHECK(systems[0]->take(0, &depth));
     CHECK(depth == 6);
-    CHECK_FALSE(channels[0]->take(0, &depth));
-    channels[0]->reach(std::chrono::seconds(1));
+    CHECK_FALSE(systems[0]->take(0, &depth));
+    systems[0]->reach(std::chrono::seconds(1));
     Metres truth;
-    channels[0]->copy_true_values(&truth);
+    systems[0]->copy_true_values(&truth);
     CHECK(truth.value == 10);
   }
 

@@ -51,9 +51,9 @@ tests::Run run_plant(const std::string& text, Duration end, std::vector<std::str
   const Graph graph =
       tests::graph_of(registry, "graph: t\ntiming: {period: 10ms}\n" +
                                     std::string("distributers: {p: {type: Plant, link: {type: test}}}\n") + text);
-  std::vector<std::unique_ptr<ExternalSystem>> channels;
-  channels.push_back(std::make_unique<Plant>(diary));
-  return tests::run_graph(graph, end, std::move(channels));
+  std::vector<std::unique_ptr<ExternalSystem>> systems;
+  systems.push_back(std::make_unique<Plant>(diary));
+  return tests::run_graph(graph, end, std::move(systems));
 }
 }  // namespace
 

@@ -59,9 +59,9 @@ class Outside : public ExternalSystem {
 };
 
 inline std::vector<std::unique_ptr<ExternalSystem>> outside() {
-  std::vector<std::unique_ptr<ExternalSystem>> channels;
-  channels.push_back(std::make_unique<Outside>());
-  return channels;
+  std::vector<std::unique_ptr<ExternalSystem>> systems;
+  systems.push_back(std::make_unique<Outside>());
+  return systems;
 }
 
 }  // namespace jarol::tests

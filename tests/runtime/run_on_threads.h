@@ -154,13 +154,13 @@ inline void keep_stacks_small() {
 
 // A graph that is so many times as slow as what is told of it.
 inline RealRun run(const Graph& graph, Duration end, int times, const RealTimeOptions& options, int pieces = 1,
-                   std::vector<std::unique_ptr<ExternalSystem>> channels = {}, Recorder* log = nullptr) {
+                   std::vector<std::unique_ptr<ExternalSystem>> systems = {}, Recorder* log = nullptr) {
   keep_stacks_small();
   tests::TraceLines lines(graph, times);
   Recorder recorder({&lines});
   RealClock clock(graph.tasks.size(), options);
   const std::vector<analysis::TaskThread> threads = analysis::threads_of(graph);
-  Executor executor(graph, std::move(channels),
+  Executor executor(graph, std::move(systems),
                     {.recorder = &recorder, .clock = &clock, .threads = threads, .log = log});
   std::thread([&] {  // the test's own thread keeps its scheduler
     if (options.priority) clock.prepare_thread();
@@ -185,9 +185,8 @@ inline RealRun run(const Graph& graph, Duration end, int times, const RealTimeOp
 }
 
 inline RealRun run(const std::string& text, Duration end, int times = 1, const RealTimeOptions& options = undisturbed(),
-                   int pieces = 1, std::vector<std::unique_ptr<ExternalSystem>> channels = {},
-                   Recorder* log = nullptr) {
-  return run(graph_of(slowed(text, times)), end, times, options, pieces, std::move(channels), log);
+                   int pieces = 1, std::vector<std::unique_ptr<ExternalSystem>> systems = {}, Recorder* log = nullptr) {
+  return run(graph_of(slowed(text, times)), end, times, options, pieces, std::move(systems), log);
 }
 
 // Without other misses than those that are meant.

@@ -36,11 +36,11 @@ struct Run {
   std::vector<std::string> lines;  // as recorded: in the order in which they were published
 };
 
-inline Run run_graph(const Graph& graph, Duration end, std::vector<std::unique_ptr<ExternalSystem>> channels = {}) {
+inline Run run_graph(const Graph& graph, Duration end, std::vector<std::unique_ptr<ExternalSystem>> systems = {}) {
   TraceLines lines(graph);
   Run run;
   Recorder recorder({&lines});
-  Executor executor(graph, std::move(channels), {.digest = true, .recorder = &recorder});
+  Executor executor(graph, std::move(systems), {.digest = true, .recorder = &recorder});
   executor.run_until(end);
   recorder.close();
   run.report = executor.report();

@@ -7,7 +7,7 @@
 namespace jarol::test {
 namespace {
 
-// A distributer's channels, watched: `motion` is looked at at every instant, and given to whom it is due.
+// An external system, watched: `motion` is looked at at every instant, and given to whom it is due.
 class Watched : public ExternalSystem {
  public:
   Watched(std::unique_ptr<ExternalSystem> watched, std::vector<Sample>& samples)
@@ -63,11 +63,11 @@ Dive dive(const std::string& file, const std::vector<std::string>& overrides, st
   Alarms alarms(static_cast<std::uint32_t>(at - outputs.begin()), done);
   Recorder recorder({&alarms});
   if (end == Duration{})
-    for (const auto& channels : loaded.channels) end = std::max(end, channels->end().value_or(Duration{}));
-  for (std::size_t i = 0; i < loaded.channels.size(); ++i)
+    for (const auto& system : loaded.systems) end = std::max(end, system->end().value_or(Duration{}));
+  for (std::size_t i = 0; i < loaded.systems.size(); ++i)
     if (loaded.graph->distributers[i].distributer_class->name == "LauvVehicle")
-      loaded.channels[i] = std::make_unique<Watched>(std::move(loaded.channels[i]), done.samples);
-  Executor executor(*loaded.graph, std::move(loaded.channels), {.digest = true, .recorder = &recorder});
+      loaded.systems[i] = std::make_unique<Watched>(std::move(loaded.systems[i]), done.samples);
+  Executor executor(*loaded.graph, std::move(loaded.systems), {.digest = true, .recorder = &recorder});
   executor.run_until(end);
   recorder.close();
   done.report = executor.report();

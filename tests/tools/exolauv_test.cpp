@@ -39,7 +39,7 @@ TEST_SUITE("tools/exolauv") {
     for (const char* profile :
          {"", "at_sea", "submarine_dune", "submarine_vsim", "dune", "console", "desk", "lab", "dune_console"}) {
       CAPTURE(profile);
-      const Loaded loaded = tools::load_without_channels("specs/exolauv.yaml", {.profile = profile, .set = {}});
+      const Loaded loaded = tools::load_without_systems("specs/exolauv.yaml", {.profile = profile, .set = {}});
       const auto parameters_of = [](const auto& all, const char* name) -> const void* {
         for (const auto& each : all)
           if (each.name == name) return each.parameters.data();
@@ -60,7 +60,7 @@ TEST_SUITE("tools/exolauv") {
 
   TEST_CASE("the profile for DUNE with a console has all of the one for DUNE, and the link of the one for a console") {
     const auto load = [](const char* profile) {
-      return tools::load_without_channels("specs/exolauv.yaml", {.profile = profile, .set = {}});
+      return tools::load_without_systems("specs/exolauv.yaml", {.profile = profile, .set = {}});
     };
     const Loaded both = load("dune_console"), dune = load("dune"), console = load("console");
     const auto text_of = [](const Value& value) { return tools::graph_text(*value.type(), value.data()); };

@@ -91,22 +91,22 @@ Flight fly(const FlightPlan& plan) {
   Flight flight;
   watching = &flight.path;
   Problems problems;
-  auto channels = distributers::make_external_systems(*loaded.graph, known, plan.seed, problems);
+  auto systems = distributers::make_external_systems(*loaded.graph, known, plan.seed, problems);
   problems.throw_if_any();
   Duration end(std::llround(1e9 * plan.seconds));
-  for (std::size_t i = 0; i < channels.size(); ++i) {
+  for (std::size_t i = 0; i < systems.size(); ++i) {
     if (loaded.graph->distributers[i].name != "terminal") continue;
     if (plan.pilot) {
-      channels[i] = std::make_unique<PilotSystem>(plan.pilot);
+      systems[i] = std::make_unique<PilotSystem>(plan.pilot);
     } else {
-      end = channels[i]->end().value_or(end);
+      end = systems[i]->end().value_or(end);
     }
   }
   const std::vector<Output> outputs = outputs_of(*loaded.graph);
   Keep directives(outputs, "logic.directive", flight.directives);
   Keep estimates(outputs, "filter.estimate", flight.estimates);
   Recorder recorder({&directives, &estimates});
-  Executor executor(*loaded.graph, std::move(channels), {.digest = true, .recorder = &recorder});
+  Executor executor(*loaded.graph, std::move(systems), {.digest = true, .recorder = &recorder});
   executor.run_until(end);
   recorder.close();
   flight.report = executor.report();

@@ -82,17 +82,17 @@ void flood(std::unique_ptr<Transport> transport, const MakeFlood& make_flood, bo
   const Graph& graph = *loaded.graph;
   auto adapter = std::make_unique<Typed<JaviatorVehicle>>();
   const auto& set = adapter->message_set();
-  auto channels = std::make_unique<LinkedSystem>(std::make_unique<Link>(std::move(transport), set, LinkOptions{}),
-                                                 std::move(adapter));
-  LinkedSystem& link = *channels;
+  auto system = std::make_unique<LinkedSystem>(std::make_unique<Link>(std::move(transport), set, LinkOptions{}),
+                                               std::move(adapter));
+  LinkedSystem& link = *system;
   std::size_t robostix = 0, from_robostix = 0;
   for (std::size_t i = 0; i < graph.distributers.size(); ++i)
     if (graph.distributers[i].name == "robostix") robostix = i;
   for (std::size_t i = 0; i < graph.communicators.size(); ++i)
     if (graph.communicators[i].name == "from_robostix") from_robostix = i;
-  loaded.channels[robostix] = std::move(channels);
+  loaded.systems[robostix] = std::move(system);
   RealClock clock(graph.tasks.size());
-  Executor executor(graph, std::move(loaded.channels), {.clock = &clock});
+  Executor executor(graph, std::move(loaded.systems), {.clock = &clock});
   link.begin();
   auto source = make_flood();
   clock.start();

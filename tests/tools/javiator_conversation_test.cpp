@@ -89,9 +89,9 @@ const std::vector<Answer>& answers() {
   static const std::vector<Answer> all = [] {
     std::vector<Answer> answers;
     auto loaded = tools::load_graph("specs/javiator.yaml", {.profile = "original", .set = {}});
-    for (std::size_t i = 0; i < loaded.channels.size(); ++i)
-      if (loaded.graph->distributers[i].name == "terminal") loaded.channels[i] = std::make_unique<Replay>(answers);
-    Executor executor(*loaded.graph, std::move(loaded.channels));
+    for (std::size_t i = 0; i < loaded.systems.size(); ++i)
+      if (loaded.graph->distributers[i].name == "terminal") loaded.systems[i] = std::make_unique<Replay>(answers);
+    Executor executor(*loaded.graph, std::move(loaded.systems));
     executor.run_until(46035ms);
     CHECK(executor.report().fault_count == 0);
     return answers;

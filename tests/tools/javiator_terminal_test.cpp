@@ -57,12 +57,12 @@ class Lab {
     }
     auto adapter = std::make_unique<Typed<JaviatorOperator>>();
     const auto& set = adapter->message_set();
-    auto channels = std::make_unique<LinkedSystem>(std::make_unique<Link>(std::move(transport), set, LinkOptions{}),
-                                                   std::move(adapter));
-    link_ = channels.get();
-    for (std::size_t i = 0; i < loaded_.channels.size(); ++i)
-      if (loaded_.graph->distributers[i].name == "terminal") loaded_.channels[i] = std::move(channels);
-    executor_ = std::make_unique<Executor>(*loaded_.graph, std::move(loaded_.channels));
+    auto system = std::make_unique<LinkedSystem>(std::make_unique<Link>(std::move(transport), set, LinkOptions{}),
+                                                 std::move(adapter));
+    link_ = system.get();
+    for (std::size_t i = 0; i < loaded_.systems.size(); ++i)
+      if (loaded_.graph->distributers[i].name == "terminal") loaded_.systems[i] = std::move(system);
+    executor_ = std::make_unique<Executor>(*loaded_.graph, std::move(loaded_.systems));
     link_->begin();
   }
   ~Lab() { link_->finish(); }

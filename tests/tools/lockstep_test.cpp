@@ -55,8 +55,8 @@ class Process {
 std::uint64_t digest_of(const std::string& graph, const std::vector<std::string>& set, std::uint64_t seed,
                         Duration end) {
   Loaded loaded = tools::load_graph(graph, {.profile = "", .set = set}, seed);
-  for (const auto& channels : loaded.channels) channels->begin();
-  Executor executor(*loaded.graph, std::move(loaded.channels));
+  for (const auto& system : loaded.systems) system->begin();
+  Executor executor(*loaded.graph, std::move(loaded.systems));
   executor.run_until(end);
   return executor.report().digest;
 }
@@ -81,8 +81,8 @@ TEST_SUITE("tools/lockstep") {
     auto process = std::make_unique<Process>("specs/vehicles/submarine.yaml");
     Loaded loaded = tools::load_graph("specs/exolauv.yaml",
                                       {.profile = "", .set = {"distributers.dune.link" + process->link()}}, 0);
-    for (const auto& channels : loaded.channels) channels->begin();
-    Executor executor(*loaded.graph, std::move(loaded.channels));
+    for (const auto& system : loaded.systems) system->begin();
+    Executor executor(*loaded.graph, std::move(loaded.systems));
     executor.run_until(3s);
     const std::string link = process->link();
     const std::string address = link.substr(link.find("127"), link.rfind('\'') - link.find("127"));
@@ -97,7 +97,7 @@ TEST_SUITE("tools/lockstep") {
     const auto begin = [](const std::string& link) {
       Loaded loaded =
           tools::load_graph("specs/exolauv.yaml", {.profile = "", .set = {"distributers.dune.link" + link}}, 0);
-      for (const auto& channels : loaded.channels) channels->begin();
+      for (const auto& system : loaded.systems) system->begin();
     };
     const std::string link = helicopter.link();
     const std::string address = link.substr(link.find("127"), link.rfind('\'') - link.find("127"));
@@ -190,7 +190,7 @@ TEST_SUITE("tools/lockstep") {
         0);
     std::string error;
     try {
-      for (const auto& channels : loaded.channels) channels->begin();
+      for (const auto& system : loaded.systems) system->begin();
     } catch (const FrameError& refused) { error = refused.what(); }
     CHECK(error.substr(error.find("fit: ")) ==
           "fit: communicator 'from_robostix' has offset 1ms; it has to be a multiple of the vehicle's step of 5ms");

@@ -124,24 +124,24 @@ connections: [from -> relay.in, relay.out -> to]
     auto transport = std::make_unique<UdpTransport>(any_port(), Address());
     const UdpTransport& udp = *transport;
     auto link = std::make_unique<Link>(std::move(transport), javiator::message_set(), LinkOptions{});
-    std::vector<std::unique_ptr<ExternalSystem>> channels;
-    channels.push_back(std::make_unique<LinkedSystem>(std::move(link), std::make_unique<Typed<Echo>>()));
-    channels_ = channels.back().get();
-    executor_ = std::make_unique<Executor>(graph_, std::move(channels));
-    channels_->begin();
+    std::vector<std::unique_ptr<ExternalSystem>> systems;
+    systems.push_back(std::make_unique<LinkedSystem>(std::move(link), std::make_unique<Typed<Echo>>()));
+    system_ = systems.back().get();
+    executor_ = std::make_unique<Executor>(graph_, std::move(systems));
+    system_->begin();
     port_ = udp.port();
     thread_ = std::thread([this] { executor_->run_until(Duration::max()); });
   }
   ~Engine() {
     executor_->interrupt();
     thread_.join();
-    channels_->finish();
+    system_->finish();
   }
   int port() const { return port_; }
 
  private:
   Graph graph_;
-  ExternalSystem* channels_ = nullptr;
+  ExternalSystem* system_ = nullptr;
   std::unique_ptr<Executor> executor_;
   int port_ = 0;
   std::thread thread_;

@@ -32,7 +32,7 @@ struct Loop {
 Figure measure_loop(const std::string& name, const std::string& text, const Loop& loop, int repeats,
                     const std::function<double()>& plain_period) {
   auto loaded = tools::load_graph(loop.file, {});
-  Executor executor(*loaded.graph, std::move(loaded.channels), {.digest = true});
+  Executor executor(*loaded.graph, std::move(loaded.systems), {.digest = true});
   Duration until = loop.beginning;
   executor.run_until(until);
   const auto closed_loop = [&] {

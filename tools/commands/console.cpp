@@ -101,7 +101,7 @@ int show(const ConsoleOptions& options) {
   print_url(console.url(), options.console);
   if (!log) read();
   if (Interruptible::signal() != 0) return exit_of_signal(Interruptible::signal());
-  loaded.channels = recorded_systems(loaded, *log);
+  loaded.systems = recorded_systems(loaded, *log);
   GraphRun run(std::move(loaded), {.sinks = {&console.feed()}, .misses = misses, .truth = true, .watched = true});
   ReplayRun replay(run.executor(), *log);
   const RunEnd end = attend(

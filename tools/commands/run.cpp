@@ -77,9 +77,9 @@ void add_saves(const std::vector<Save>& saves, std::vector<Save>& written, std::
   }
 }
 
-bool steers(const RunArguments& arguments, const std::vector<ExternalSystem*>& channels) {
+bool steers(const RunArguments& arguments, const std::vector<ExternalSystem*>& systems) {
   return arguments.clock == "real" ||
-         std::any_of(channels.begin(), channels.end(), [](const ExternalSystem* c) { return c->outlives_run(); });
+         std::any_of(systems.begin(), systems.end(), [](const ExternalSystem* each) { return each->outlives_run(); });
 }
 
 // Begins and attends it at the terminal.
@@ -130,7 +130,7 @@ int run(RunArguments arguments, WatchRun* watch) {
   const ReportsAside aside(arguments.files);
   RunFiles files(graph, arguments.files, note_of(arguments.overrides, arguments.seed), types_of_truth(loaded));
   const SignalStack signal_stack;  // of what reports a crash; before the guard, which leaves it writable
-  const std::unique_ptr<TaskGuard> task_guard = make_guard(arguments.guard, graph, pointers_to(loaded.channels));
+  const std::unique_ptr<TaskGuard> task_guard = make_guard(arguments.guard, graph, pointers_to(loaded.systems));
   const std::unique_ptr<Pace> pace = pace_of(arguments);
   const std::unique_ptr<console::View> console =
       arguments.console.wanted() ? watch(arguments, loaded, options.end, pace.get()) : nullptr;
@@ -144,7 +144,7 @@ int run(RunArguments arguments, WatchRun* watch) {
   std::vector<Save> written_saves;
   add_saves(saves, written_saves, options.stops);
   what_ifs.add_to(options.stops);
-  const bool may_steer = steers(arguments, pointers_to(loaded.channels));
+  const bool may_steer = steers(arguments, pointers_to(loaded.systems));
   std::optional<CrashLine> crash_line;
   Runner runner(std::move(loaded), std::move(options), [&](const Guard* guard) {
     crash_line.emplace(graph, guard != nullptr ? guard->process() : nullptr, arguments.recording.file());

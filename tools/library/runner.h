@@ -16,8 +16,8 @@
 
 namespace jarol {
 
-/// As load_graph: a graph's file with what it may name, and its channels. The overrides and the seed stand in the
-/// options of its run, too. Throws SpecError with all that is wrong with the file, the overrides and the links;
+/// As load_graph: a graph's file with what it may name, and its external systems. The overrides and the seed stand in
+/// the options of its run, too. Throws SpecError with all that is wrong with the file, the overrides and the links;
 /// WrongBuild.
 Loaded load(const std::string& path, const Overrides& overrides = {}, std::uint64_t seed = 0,
             const NoteSink& note = no_notes, const BuildOptions& program = options_of_this_file());

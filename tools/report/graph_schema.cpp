@@ -49,7 +49,7 @@ Json task_schema(const Registry& known, Json& definitions) {
 }
 
 // The directions and types of all channels of one name.
-struct ExternalSystem {
+struct ChannelEnds {
   std::set<std::string> in, out;
 };
 
@@ -62,7 +62,7 @@ Json any_value(const std::set<std::string>& types) {
 
 // A communicator with a channel has what channels of that name have; one without says its type and direction.
 Json communicator_schema(const Registry& known, Json& definitions) {
-  std::map<std::string, ExternalSystem> channels;
+  std::map<std::string, ChannelEnds> channels;
   for (const DistributerClass& distributer : known.distributers())
     for (const ChannelClass& c : distributer.channels)
       (c.direction == Direction::in ? channels[c.name].in : channels[c.name].out).insert(c.type->name);

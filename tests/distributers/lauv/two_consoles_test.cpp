@@ -30,25 +30,25 @@ struct Vehicle {
     const UdpTransport& at = *transport;
     LinkOptions options;
     options.header = {{"src", vehicle}};
-    channels = std::make_unique<LinkedSystem>(std::make_unique<Link>(std::move(transport), imc::message_set(), options),
-                                              std::make_unique<Typed<LauvOperator>>(LauvOperatorParameters{}));
-    channels->begin();
+    system = std::make_unique<LinkedSystem>(std::make_unique<Link>(std::move(transport), imc::message_set(), options),
+                                            std::make_unique<Typed<LauvOperator>>(LauvOperatorParameters{}));
+    system->begin();
     address = any.with_port(at.port());
   }
-  ~Vehicle() { channels->finish(); }
-  std::uint64_t count(const std::string& name) const { return tests::count_of(channels->link(), name); }
-  void step() { channels->reach(now += 50ms); }
+  ~Vehicle() { system->finish(); }
+  std::uint64_t count(const std::string& name) const { return tests::count_of(system->link(), name); }
+  void step() { system->reach(now += 50ms); }
   tasks::Setpoint setpoint() {
-    channels->take(0, &last_setpoint);
+    system->take(0, &last_setpoint);
     return last_setpoint;
   }
   double silence() {
     tasks::Contact contact;
-    REQUIRE(channels->take(3, &contact));
+    REQUIRE(system->take(3, &contact));
     return contact.silence;
   }
 
-  std::unique_ptr<LinkedSystem> channels;
+  std::unique_ptr<LinkedSystem> system;
   Address address;
   Duration now{};
   tasks::Setpoint last_setpoint;

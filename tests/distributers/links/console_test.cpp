@@ -18,14 +18,14 @@ using namespace std::chrono_literals;
 // The external system of the helicopter's operator, as a graph has them.
 struct Channelled {
   DistributerClass operator_class = distributer_class<JaviatorOperator>();
-  ConsoleSystem channels{operator_class.make(Value(*operator_class.parameters).data())};
+  ConsoleSystem system{operator_class.make(Value(*operator_class.parameters).data())};
   std::string why;
   tasks::PilotCommand command;
 
-  bool send(messages::MessageRef message) { return channels.port()->send(message, why); }
+  bool send(messages::MessageRef message) { return system.port()->send(message, why); }
   const tasks::PilotCommand& reach(Duration instant) {
-    channels.reach(instant);
-    CHECK(channels.take(0, &command));
+    system.reach(instant);
+    CHECK(system.take(0, &command));
     return command;
   }
 };
@@ -34,8 +34,8 @@ struct Channelled {
 struct Submarine : messages::Receiver {
   void receive(messages::MessageRef message) override { got.emplace_back(message); }
   void reach(Duration instant) {
-    channels.reach(instant);
-    channels.port()->receive_answers(*this);
+    system.reach(instant);
+    system.port()->receive_answers(*this);
   }
   template <class M>
   std::size_t count() const {
@@ -44,7 +44,7 @@ struct Submarine : messages::Receiver {
   }
 
   DistributerClass operator_class = distributer_class<LauvOperator>();
-  ConsoleSystem channels{operator_class.make(Value(*operator_class.parameters).data())};
+  ConsoleSystem system{operator_class.make(Value(*operator_class.parameters).data())};
   std::vector<messages::Message> got;
 };
 }  // namespace
@@ -74,7 +74,7 @@ TEST_SUITE("distributers/links/console") {
     CHECK_FALSE(at.send(messages::refer_to(javiator::ShutDown{})));
     CHECK(at.why == "the run has not taken what was sent before");
     CHECK(at.reach(0ms).shut_downs == ConsolePort::max_packets);
-    const LinkReport report = *at.channels.link_report();
+    const LinkReport report = *at.system.link_report();
     CHECK(report.link == "console");
     CHECK(
         report.counts ==
@@ -87,12 +87,12 @@ TEST_SUITE("distributers/links/console") {
     CHECK(at.send(messages::refer_to(javiator::CommandData{.roll = 75})));
     CHECK(at.send(messages::refer_to(javiator::ShutDown{})));
     CHECK(at.send(messages::refer_to(javiator::CommandData{.roll = 80})));
-    at.channels.port()->leave_out_waiting();
+    at.system.port()->leave_out_waiting();
     CHECK(at.reach(0ms).roll == 0);
     CHECK(at.command.shut_downs == 1);
     CHECK(at.send(messages::refer_to(javiator::CommandData{.roll = -30})));
     CHECK(at.reach(15ms).roll == -0.03);
-    const LinkReport report = *at.channels.link_report();
+    const LinkReport report = *at.system.link_report();
     CHECK(
         report.counts ==
         std::vector<std::pair<std::string, std::uint64_t>>{
@@ -106,7 +106,7 @@ TEST_SUITE("distributers/links/console") {
     question.op = imc::PlanControl::Op::GET;
     question.request_id = 7;
     std::string why;
-    REQUIRE(at.channels.port()->send(messages::refer_to(question), why));
+    REQUIRE(at.system.port()->send(messages::refer_to(question), why));
     at.reach(0ms);
     REQUIRE(at.count<imc::PlanControl>() == 1);
     const auto* answer = std::find_if(at.got.begin(), at.got.end(), [](const messages::Message& m) {
@@ -125,7 +125,7 @@ TEST_SUITE("distributers/links/console") {
     const auto motion = std::find_if(at.operator_class.channels.begin(), at.operator_class.channels.end(),
                                      [](const ChannelClass& channel) { return channel.name == "motion"; });
     const auto which = static_cast<std::size_t>(motion - at.operator_class.channels.begin());
-    at.channels.hand_over(which, Value(type_of<tasks::Motion>()).data());
+    at.system.hand_over(which, Value(type_of<tasks::Motion>()).data());
     at.reach(50ms);
     CHECK(at.count<imc::EstimatedState>() == 0);
   }
@@ -133,11 +133,11 @@ TEST_SUITE("distributers/links/console") {
   TEST_CASE("answers that nobody takes are bounded, and those that are lost are counted") {
     Submarine at;
     // three messages a second
-    for (int second = 0; second < 30; ++second) at.channels.reach(second * 1s);
-    at.channels.port()->receive_answers(at);
+    for (int second = 0; second < 30; ++second) at.system.reach(second * 1s);
+    at.system.port()->receive_answers(at);
     CHECK(at.got.size() == ConsolePort::max_packets);
-    CHECK(at.channels.port()->answered() == ConsolePort::max_packets);
-    CHECK(at.channels.port()->lost() == 90 - ConsolePort::max_packets);
+    CHECK(at.system.port()->answered() == ConsolePort::max_packets);
+    CHECK(at.system.port()->lost() == 90 - ConsolePort::max_packets);
     at.got.clear();
     at.reach(30s);
     CHECK(at.got.size() == 3);
@@ -147,7 +147,7 @@ TEST_SUITE("distributers/links/console") {
     std::shared_ptr<ConsolePort> port;
     {
       const Channelled at;
-      port = at.channels.port();
+      port = at.system.port();
     }
     std::string why;
     CHECK(port->send(messages::refer_to(javiator::ShutDown{}), why));

@@ -158,8 +158,8 @@ TEST_SUITE("distributers/links/counts") {
     std::string& diary = Diary::text;
     auto made = make(std::move(transport));
     Link& link = *made;
-    LinkedSystem channels(std::move(made), std::make_unique<Typed<Diary>>());
-    channels.begin();
+    LinkedSystem system(std::move(made), std::make_unique<Typed<Diary>>());
+    system.begin();
     const Address to = Address::parse("127.0.0.1:" + std::to_string(at.port()));
     for (int restart = 0; restart < 2; ++restart) {
       const auto peer = make(std::make_unique<UdpTransport>(Address::parse("127.0.0.1:0"), to));
@@ -173,11 +173,11 @@ TEST_SUITE("distributers/links/counts") {
       }));
     }
     REQUIRE(wait_for([&] {
-      channels.reach(Duration{});
+      system.reach(Duration{});
       return diary.find("12") != std::string::npos;
     }));
     CHECK(diary == "peer 1 2 peer 11 12 ");
-    channels.finish();
+    system.finish();
     CHECK(diary == "peer 1 2 peer 11 12 end ");
   }
 

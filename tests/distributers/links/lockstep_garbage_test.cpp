@@ -209,11 +209,11 @@ TEST_SUITE("distributers/links/lockstep_garbage") {
       CAPTURE(session);
       std::string said;
       const Bytes bytes = vehicle_session(packets, session);
-      LockstepSystem channels(peer.address(), 0, std::make_unique<Typed<JaviatorVehicle>>(),
-                              [](Duration) { return std::string(); });
-      channels.begin();
+      LockstepSystem system(peer.address(), 0, std::make_unique<Typed<JaviatorVehicle>>(),
+                            [](Duration) { return std::string(); });
+      system.begin();
       try {
-        channels.reach(Duration{});
+        system.reach(Duration{});
         ++taken;
       } catch (const std::runtime_error& error) {
         said = error.what();
@@ -221,7 +221,7 @@ TEST_SUITE("distributers/links/lockstep_garbage") {
       }
       CAPTURE(said);
       tasks::JaviatorSensors sensors;
-      channels.take(0, &sensors);
+      system.take(0, &sensors);
       REQUIRE(sensors.answers == messages_before_an_error(bytes, false));
     }
     CHECK(refused > taken);

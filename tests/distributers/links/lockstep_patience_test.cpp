@@ -87,10 +87,10 @@ void say(const Descriptor& to, const Bytes& bytes) {
 // What a run says that looks at its sensors once.
 std::string said_with(const Address& address, std::optional<SecretKey> key = {}) {
   try {
-    LockstepSystem channels(address, 0, std::make_unique<Typed<JaviatorVehicle>>(),
-                            [](Duration) { return std::string(); }, {.key = key, .patience = short_patience});
-    channels.begin();
-    channels.reach(Duration{});
+    LockstepSystem system(address, 0, std::make_unique<Typed<JaviatorVehicle>>(),
+                          [](Duration) { return std::string(); }, {.key = key, .patience = short_patience});
+    system.begin();
+    system.reach(Duration{});
   } catch (const FrameError& error) {
     const std::string text = error.what(), who = "the vehicle at " + address.text() + " ";
     return text.starts_with(who) ? text.substr(who.size()) : text;
@@ -299,11 +299,10 @@ TEST_SUITE("distributers/links/lockstep_patience") {
     });
     std::string said;
     try {
-      LockstepSystem channels(address, 0, std::make_unique<Typed<JaviatorVehicle>>(),
-                              [](Duration) { return std::string(); },
-                              {.key = secret_of(1), .patience = short_patience});
-      channels.begin();
-      for (int i = 0; i < 100; ++i) channels.reach(i * 5ms);
+      LockstepSystem system(address, 0, std::make_unique<Typed<JaviatorVehicle>>(),
+                            [](Duration) { return std::string(); }, {.key = secret_of(1), .patience = short_patience});
+      system.begin();
+      for (int i = 0; i < 100; ++i) system.reach(i * 5ms);
     } catch (const FrameError& error) { said = error.what(); }
     between.join();
     CHECK(said == "the vehicle at " + address.text() + " has another key");

@@ -39,10 +39,10 @@ std::string said_to(std::int64_t grid) {
   });
   std::string said;
   try {
-    LockstepSystem channels(address, 0, std::make_unique<Typed<LauvVehicle>>(), [](Duration its) {
+    LockstepSystem system(address, 0, std::make_unique<Typed<LauvVehicle>>(), [](Duration its) {
       return Duration(1000).count() % its.count() == 0 ? std::string() : std::string("off its grid");
     });
-    channels.begin();
+    system.begin();
   } catch (const FrameError& error) { said = error.what(); }
   process.join();
   const std::string who = "the vehicle at " + address.text() + " does not fit: ";
@@ -77,11 +77,10 @@ TEST_SUITE("distributers/links/lockstep") {
       }
     });
     {
-      LockstepSystem channels(address, 0, std::make_unique<Typed<LauvVehicle>>(),
-                              [](Duration) { return std::string(); });
-      channels.begin();
-      channels.reach(std::chrono::milliseconds(15));
-      CHECK_THROWS_WITH_AS(channels.reach(std::chrono::milliseconds(20)),
+      LockstepSystem system(address, 0, std::make_unique<Typed<LauvVehicle>>(), [](Duration) { return std::string(); });
+      system.begin();
+      system.reach(std::chrono::milliseconds(15));
+      CHECK_THROWS_WITH_AS(system.reach(std::chrono::milliseconds(20)),
                            ("the vehicle at " + address.text() +
                             " is out of step: got what it senses after step 3, expected that after step 4")
                                .c_str(),

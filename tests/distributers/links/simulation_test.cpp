@@ -44,9 +44,9 @@ class Unsaved : public Steps {
 
 SimulatedSystem make() { return {std::make_unique<Steps>(), std::make_unique<Typed<LauvVehicle>>()}; }
 
-double depth_of(SimulatedSystem& channels) {
+double depth_of(SimulatedSystem& system) {
   tasks::Motion motion;
-  CHECK(channels.take(0, &motion));
+  CHECK(system.take(0, &motion));
   return motion.z;
 }
 }  // namespace
@@ -61,31 +61,30 @@ TEST_SUITE("distributers/links/simulation") {
   }
 
   TEST_CASE("at the start there is something to sense") {
-    auto channels = make();
-    channels.reach(0ms);
-    CHECK(depth_of(channels) == 0);
+    auto system = make();
+    system.reach(0ms);
+    CHECK(depth_of(system) == 0);
   }
 
   TEST_CASE("a command at an instant does not change what is sensed at it, and is held from then on") {
-    auto channels = make();
-    channels.reach(10ms);
+    auto system = make();
+    system.reach(10ms);
     const tasks::Actuation actuation{0, {4, 0, 0, 0}};
-    channels.hand_over(3, &actuation);  // after motion, instruments and servos
-    CHECK(depth_of(channels) == 1);
-    channels.reach(30ms);
-    CHECK(depth_of(channels) == 11);
+    system.hand_over(3, &actuation);  // after motion, instruments and servos
+    CHECK(depth_of(system) == 1);
+    system.reach(30ms);
+    CHECK(depth_of(system) == 11);
   }
 
   TEST_CASE("what a vehicle throws when it is saved or restored is said to be of it") {
     Archive::Bytes bytes;
     Archive archive = Archive::to(bytes);
     CHECK_THROWS_WITH_AS(make().serialize(archive), "its vehicle has no serialize(Archive&)", NotSaveable);
-    SimulatedSystem channels(std::make_unique<Unsaved>(), std::make_unique<Typed<LauvVehicle>>());
+    SimulatedSystem system(std::make_unique<Unsaved>(), std::make_unique<Typed<LauvVehicle>>());
     bytes.clear();
-    CHECK_THROWS_WITH_AS(channels.serialize(archive), "its vehicle's serialize(Archive&) throws: ser broke",
-                         NotSaveable);
+    CHECK_THROWS_WITH_AS(system.serialize(archive), "its vehicle's serialize(Archive&) throws: ser broke", NotSaveable);
     Archive from = Archive::from(bytes);
-    CHECK_THROWS_WITH_AS(channels.serialize(from),
+    CHECK_THROWS_WITH_AS(system.serialize(from),
                          "can't be restored, as its vehicle's serialize(Archive&) throws: ser broke", ArchiveError);
   }
 }

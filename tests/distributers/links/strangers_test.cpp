@@ -174,8 +174,8 @@ TEST_SUITE("distributers/links/strangers") {
     const UdpTransport& at = *transport;
     auto adapter = std::make_unique<Typed<JaviatorOperator>>();
     auto link = std::make_unique<Link>(std::move(transport), javiator::message_set(), LinkOptions{});
-    LinkedSystem channels(std::move(link), std::move(adapter));
-    channels.begin();
+    LinkedSystem system(std::move(link), std::move(adapter));
+    system.begin();
     const Address to = any.with_port(at.port());
     const Speaker pilot(to, SOCK_DGRAM), stray(to, SOCK_DGRAM);
     const auto command = [](int altitude) {
@@ -187,7 +187,7 @@ TEST_SUITE("distributers/links/strangers") {
       return bytes;
     };
     const auto count = [&](const std::string& name) {
-      const LinkReport report = *channels.link_report();
+      const LinkReport report = *system.link_report();
       for (const auto& [counted, value] : report.counts)
         if (counted == name) return value;
       return std::uint64_t{0};
@@ -195,17 +195,17 @@ TEST_SUITE("distributers/links/strangers") {
     tasks::PilotCommand pilot_command;
     pilot.say(command(1));  // its own hello
     REQUIRE(wait_for([&] { return count("packets in") == 1; }));
-    channels.reach(15ms);
+    system.reach(15ms);
     for (int i = 1; i <= 3; ++i) {
       stray.say(command(7));
       REQUIRE(wait_for([&] { return count("dropped: stranger") == static_cast<std::uint64_t>(i); }));
       pilot.say(command(1000 * i));
       REQUIRE(wait_for([&] { return count("packets in") == static_cast<std::uint64_t>(i) + 1; }));
-      channels.reach(15ms * (i + 1));
-      channels.take(0, &pilot_command);
+      system.reach(15ms * (i + 1));
+      system.take(0, &pilot_command);
       CHECK(pilot_command.altitude == doctest::Approx(i));
     }
-    channels.finish();
+    system.finish();
   }
 
   TEST_CASE("packets whose stamps can't be are dropped, each with its reason") {

@@ -38,12 +38,12 @@ connections: [i -> r.in, r.out -> o]
 // Of what was handed over so many times why the last was not.
 FailsafeReport::AtEnd end_of_safe(bool ready, int times, bool later = false) {
   const Graph graph = graph_with_safe_value();
-  std::vector<std::unique_ptr<ExternalSystem>> channels;
-  channels.push_back(std::make_unique<FullPlant>(ready));
+  std::vector<std::unique_ptr<ExternalSystem>> systems;
+  systems.push_back(std::make_unique<FullPlant>(ready));
   Failsafe failsafe(graph);
-  for (int i = 0; i < times; ++i) failsafe.hand_over_at_end(channels, 1s, false);
-  if (later) channels[0]->hand_over(0, nullptr);
-  return failsafe_after({}, graph, pointers_to(channels), failsafe.reports()).at(0).at_end.value();
+  for (int i = 0; i < times; ++i) failsafe.hand_over_at_end(systems, 1s, false);
+  if (later) systems[0]->hand_over(0, nullptr);
+  return failsafe_after({}, graph, pointers_to(systems), failsafe.reports()).at(0).at_end.value();
 }
 }  // namespace
 

@@ -171,20 +171,20 @@ connections: [i -> r.in]
 )");
     std::vector<std::string> lines;
     auto diary = std::make_unique<LineDiary>(lines);
-    std::vector<std::unique_ptr<ExternalSystem>> channels;
+    std::vector<std::unique_ptr<ExternalSystem>> systems;
     SUBCASE("none ever came") {
-      channels.push_back(std::move(diary));
-      CHECK(lines_of(run_graph(graph, 20ms, std::move(channels)), "i") == "0ns i=5; 10ms i=5");
+      systems.push_back(std::move(diary));
+      CHECK(lines_of(run_graph(graph, 20ms, std::move(systems)), "i") == "0ns i=5; 10ms i=5");
     }
     SUBCASE("one came") {
       diary->values = {8};
-      channels.push_back(std::move(diary));
-      CHECK(lines_of(run_graph(graph, 20ms, std::move(channels)), "i") == "0ns i=8; 10ms i=8");
+      systems.push_back(std::move(diary));
+      CHECK(lines_of(run_graph(graph, 20ms, std::move(systems)), "i") == "0ns i=8; 10ms i=8");
     }
     SUBCASE("a value that is not finite is counted and not taken") {
       diary->values = {8, std::numeric_limits<double>::quiet_NaN(), 9};
-      channels.push_back(std::move(diary));
-      const auto run = run_graph(graph, 30ms, std::move(channels));
+      systems.push_back(std::move(diary));
+      const auto run = run_graph(graph, 30ms, std::move(systems));
       CHECK(lines_of(run, "i") == "0ns i=8; 10ms i=8; 20ms i=9");
       CHECK(run.report.non_finite_inputs == 1);
     }
@@ -206,9 +206,9 @@ tasks:
 connections: [l.out -> o1, d.out -> o2, i1 -> r.a, i2 -> r.b]
 )");
     std::vector<std::string> lines;
-    std::vector<std::unique_ptr<ExternalSystem>> channels;
-    channels.push_back(std::make_unique<LineDiary>(lines));
-    const auto run = run_graph(graph, 20ms, std::move(channels));
+    std::vector<std::unique_ptr<ExternalSystem>> systems;
+    systems.push_back(std::make_unique<LineDiary>(lines));
+    const auto run = run_graph(graph, 20ms, std::move(systems));
     // o1 hands over the LET output that ends at 10 ms; o2 what the data-flow task published one period before
     CHECK(lines == std::vector<std::string>{"0ns reach", "hand over 3 -1", "hand over 2 -2", "take 1", "take 0",
                                             "10ms reach", "hand over 3 0", "hand over 2 0", "take 1", "take 0"});
@@ -229,9 +229,9 @@ communicators:
 connections: [i1 -> o1, i2 -> o2]
 )");
     std::vector<std::string> lines;
-    std::vector<std::unique_ptr<ExternalSystem>> channels;
-    channels.push_back(std::make_unique<LineDiary>(lines));
-    run_graph(graph, 21ms, std::move(channels));
+    std::vector<std::unique_ptr<ExternalSystem>> systems;
+    systems.push_back(std::make_unique<LineDiary>(lines));
+    run_graph(graph, 21ms, std::move(systems));
     CHECK(lines == std::vector<std::string>{"0ns reach", "hand over 3 0", "hand over 2 0", "take 1", "take 0",
                                             "20ms reach", "hand over 2 0", "take 0"});
   }

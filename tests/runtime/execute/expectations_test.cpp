@@ -63,9 +63,9 @@ std::vector<Verdict> judge(const std::vector<std::string>& conditions, Duration 
   problems.throw_if_any();
   Expectations expectations(graph, outputs_of(graph), graph.expectations);
   Recorder recorder({&expectations});
-  std::vector<std::unique_ptr<ExternalSystem>> channels;
-  channels.push_back(std::make_unique<Going>());
-  Executor executor(graph, std::move(channels),
+  std::vector<std::unique_ptr<ExternalSystem>> systems;
+  systems.push_back(std::make_unique<Going>());
+  Executor executor(graph, std::move(systems),
                     {.recorder = &recorder, .record_truth = true, .workers = workers, .sharing = Sharing::always});
   executor.run_until(end / 2);
   executor.run_until(end);

@@ -65,9 +65,9 @@ connections: [i -> r.in, r.out -> o]
 std::vector<std::unique_ptr<ExternalSystem>> sensor(std::vector<std::pair<Duration, double>> values,
                                                     std::vector<double>& handed, int times = 1) {
   for (auto& value : values) value.first *= times;
-  std::vector<std::unique_ptr<ExternalSystem>> channels;
-  channels.push_back(std::make_unique<Sensor>(std::move(values), handed));
-  return channels;
+  std::vector<std::unique_ptr<ExternalSystem>> systems;
+  systems.push_back(std::make_unique<Sensor>(std::move(values), handed));
+  return systems;
 }
 }  // namespace
 
@@ -117,9 +117,9 @@ connections: [i -> s.a, k -> s.b, s.out -> o]
 )");
     for (const auto until : {std::array<Duration, 2>{10ms, 1s}, std::array<Duration, 2>{1s, 10ms}}) {
       std::vector<double> handed;
-      std::vector<std::unique_ptr<ExternalSystem>> channels;
-      channels.push_back(std::make_unique<Sensors>(until, handed));
-      run_graph(graph, 50ms, std::move(channels));
+      std::vector<std::unique_ptr<ExternalSystem>> systems;
+      systems.push_back(std::make_unique<Sensors>(until, handed));
+      run_graph(graph, 50ms, std::move(systems));
       CHECK(handed == std::vector<double>{2, 2, 2, -1, -1});
     }
   }
@@ -275,9 +275,9 @@ connections: [i -> s.a, k -> s.b, s.out -> o]
     };
     const Graph graph = graph_with_timeout();
     std::vector<double> handed;
-    std::vector<std::unique_ptr<ExternalSystem>> channels;
-    channels.push_back(std::make_unique<Broken>(std::vector<std::pair<Duration, double>>{{0ms, 7}}, handed));
-    Executor executor(graph, std::move(channels));
+    std::vector<std::unique_ptr<ExternalSystem>> systems;
+    systems.push_back(std::make_unique<Broken>(std::vector<std::pair<Duration, double>>{{0ms, 7}}, handed));
+    Executor executor(graph, std::move(systems));
     executor.close(Futex::now() + 10s);
     CHECK(executor.failsafe()[0].at_end->failure == "something was thrown that is no exception");
   }
@@ -301,9 +301,9 @@ connections: [i -> s.a, k -> s.b, s.out -> o]
       CAPTURE(in_reach);
       const Graph graph = graph_with_timeout();
       std::vector<double> handed;
-      std::vector<std::unique_ptr<ExternalSystem>> channels;
-      channels.push_back(std::make_unique<Lost>(handed, in_reach));
-      Executor executor(graph, std::move(channels));
+      std::vector<std::unique_ptr<ExternalSystem>> systems;
+      systems.push_back(std::make_unique<Lost>(handed, in_reach));
+      Executor executor(graph, std::move(systems));
       CHECK_THROWS_WITH_AS(executor.run_until(100ms), "it is lost", std::runtime_error);
       executor.close(Futex::now() + 10s);
       CHECK(handed == std::vector<double>{7, 7, -1});

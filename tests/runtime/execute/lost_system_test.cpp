@@ -30,9 +30,9 @@ Report run_until_lost(Duration at, Duration end) {
   tasks::add_tasks(registry);
   registry.add(tests::plant());
   const Graph graph = tests::graph_of(registry, tests::plant_graph);
-  std::vector<std::unique_ptr<ExternalSystem>> channels;
-  channels.push_back(std::make_unique<LostPlant>(at));
-  Executor executor(graph, std::move(channels), {.digest = true});
+  std::vector<std::unique_ptr<ExternalSystem>> systems;
+  systems.push_back(std::make_unique<LostPlant>(at));
+  Executor executor(graph, std::move(systems), {.digest = true});
   if (at < end)
     CHECK_THROWS_WITH_AS(executor.run_until(end), "no carrier", std::runtime_error);
   else

@@ -129,10 +129,10 @@ struct World {
     auto plant_ = std::make_unique<Plant>(reports);
     pilot = pilot_.get();
     plant = plant_.get();
-    channels.push_back(std::move(pilot_));
-    channels.push_back(std::move(plant_));
+    systems.push_back(std::move(pilot_));
+    systems.push_back(std::move(plant_));
   }
-  std::vector<std::unique_ptr<ExternalSystem>> channels;
+  std::vector<std::unique_ptr<ExternalSystem>> systems;
   Pilot* pilot;
   Plant* plant;
 };
@@ -152,7 +152,7 @@ TEST_SUITE("runtime/execute/rest") {
         RealClock clock(graph.tasks.size());
         const auto threads =
             std::string(platform) == "{cores: 1}" ? std::vector<analysis::TaskThread>() : analysis::threads_of(graph);
-        Executor executor(graph, std::move(world.channels), {.clock = &clock, .threads = threads});
+        Executor executor(graph, std::move(world.systems), {.clock = &clock, .threads = threads});
         clock.start();
         executor.cover(150ms);
         CHECK(height_of(executor) == 5);
@@ -182,7 +182,7 @@ TEST_SUITE("runtime/execute/rest") {
       World world(mission ? std::optional<Duration>(1s) : std::nullopt);
       Pilot& pilot = *world.pilot;
       RealClock clock(graph.tasks.size());
-      Executor executor(graph, std::move(world.channels), {.clock = &clock});
+      Executor executor(graph, std::move(world.systems), {.clock = &clock});
       clock.start();
       executor.cover(100ms);
       CHECK(pilot.taken == 10);
@@ -205,7 +205,7 @@ TEST_SUITE("runtime/execute/rest") {
       Pilot& pilot = *world.pilot;
       pilot.demands_stop = stops;
       RealClock clock(graph.tasks.size());
-      Executor executor(graph, std::move(world.channels), {.clock = &clock});
+      Executor executor(graph, std::move(world.systems), {.clock = &clock});
       clock.start();
       executor.cover(100ms);
       CHECK(pilot.endings == 0);
@@ -216,7 +216,7 @@ TEST_SUITE("runtime/execute/rest") {
       World other;
       Pilot& on_threads = *other.pilot;
       on_threads.demands_stop = stops;
-      JarolCore core(graph, std::move(other.channels));
+      JarolCore core(graph, std::move(other.systems));
       core.run_for(100ms);
       CHECK(on_threads.endings == 1);
       CHECK(static_cast<const Command*>(core.last_value(2))->height == (stops ? 5 : 0));
@@ -227,7 +227,7 @@ TEST_SUITE("runtime/execute/rest") {
     const Graph graph = graph_of_flight(lands);
     RealClock clock(graph.tasks.size());
     World world;
-    Executor executor(graph, std::move(world.channels), {.clock = &clock});
+    Executor executor(graph, std::move(world.systems), {.clock = &clock});
     clock.start();
     std::thread asks([&] {
       while (executor.now() < 60ms) std::this_thread::yield();
@@ -244,11 +244,11 @@ TEST_SUITE("runtime/execute/rest") {
     CHECK(!executor.rest()->reached);
     World other;
     RealClock again(graph.tasks.size());
-    Executor interrupted(graph, std::move(other.channels), {.clock = &again});
+    Executor interrupted(graph, std::move(other.systems), {.clock = &again});
     interrupted.interrupt();
     CHECK(!interrupted.begin_rest().has_value());
     World third;
-    Executor on_virtual_clock(graph, std::move(third.channels));
+    Executor on_virtual_clock(graph, std::move(third.systems));
     on_virtual_clock.run_until(100ms);
     CHECK(!on_virtual_clock.begin_rest().has_value());
   }
@@ -260,7 +260,7 @@ TEST_SUITE("runtime/execute/rest") {
     CHECK(tests::at_some_speed([&](int) {
       World world;
       RealClock clock(graph.tasks.size());
-      Executor executor(graph, std::move(world.channels), {.clock = &clock});
+      Executor executor(graph, std::move(world.systems), {.clock = &clock});
       clock.start();
       executor.cover(150ms);
       executor.begin_rest();
@@ -280,7 +280,7 @@ TEST_SUITE("runtime/execute/rest") {
         const Graph graph = graph_of_flight(lands);
         World world(mission ? std::optional<Duration>(1s) : std::nullopt);
         Plant& plant = *world.plant;
-        JarolCore core(graph, std::move(world.channels));
+        JarolCore core(graph, std::move(world.systems));
         std::thread asks([&] {
           while (asked && core.now() < 150ms) std::this_thread::sleep_for(1ms);
           if (asked) core.ask_for_rest();
@@ -313,7 +313,7 @@ TEST_SUITE("runtime/execute/rest") {
                                           "{cores: 1}", each.timeout);
       World world({}, Plant(each.from, each.until));
       RealClock clock(graph.tasks.size());
-      Executor executor(graph, std::move(world.channels), {.clock = &clock});
+      Executor executor(graph, std::move(world.systems), {.clock = &clock});
       clock.start();
       executor.cover(50ms);
       executor.begin_rest();
@@ -323,7 +323,7 @@ TEST_SUITE("runtime/execute/rest") {
       CHECK(rest.heard == each.heard);
       if (!each.heard) CHECK(rest.ended == 110ms);
       World other({}, Plant(each.from, each.until));
-      JarolCore core(graph, std::move(other.channels));
+      JarolCore core(graph, std::move(other.systems));
       core.run_for(50ms);
       CHECK(core.rest()->reached == each.heard);
       CHECK(core.rest()->heard == each.heard);
@@ -333,7 +333,7 @@ TEST_SUITE("runtime/execute/rest") {
                                        ", let: 90ms", "{cores: 1}", ", timeout: 1h", "100ms");
     World world;
     RealClock clock(slow.tasks.size());
-    Executor executor(slow, std::move(world.channels), {.clock = &clock});
+    Executor executor(slow, std::move(world.systems), {.clock = &clock});
     clock.start();
     executor.cover(100ms);
     executor.begin_rest();
@@ -345,7 +345,7 @@ TEST_SUITE("runtime/execute/rest") {
   TEST_CASE("threads give it up after the longest time") {
     const Graph graph = graph_of_flight("{command: {wish: {height: 0}}, until: climb.height < -1, longest: 55ms}");
     World world;
-    JarolCore core(graph, std::move(world.channels));
+    JarolCore core(graph, std::move(world.systems));
     core.run_for(50ms);
     REQUIRE(core.rest().has_value());
     CHECK(!core.rest()->reached);

@@ -103,11 +103,11 @@ tasks: {c: {type: Counter}}
 connections: [c.out -> to_plant, c.out -> to_operator]
 )";
 
-std::vector<std::unique_ptr<ExternalSystem>> channels_of(External::Diary& plant, External::Diary& op) {
-  std::vector<std::unique_ptr<ExternalSystem>> channels;
-  channels.push_back(std::make_unique<External>(plant));
-  channels.push_back(std::make_unique<External>(op));
-  return channels;
+std::vector<std::unique_ptr<ExternalSystem>> systems_of(External::Diary& plant, External::Diary& op) {
+  std::vector<std::unique_ptr<ExternalSystem>> systems;
+  systems.push_back(std::make_unique<External>(plant));
+  systems.push_back(std::make_unique<External>(op));
+  return systems;
 }
 }  // namespace
 
@@ -150,7 +150,7 @@ TEST_SUITE("runtime/jarol_core") {
         const Graph graph = graph_with_outside(tests::slowed(reported, times));
         const Duration end = times * whole;
         External::Diary plant, op;
-        JarolCore core(graph, channels_of(plant, op));
+        JarolCore core(graph, systems_of(plant, op));
         const auto before = MachineClock::now();
         core.run_for(end);
         CHECK(MachineClock::now() >= before + end);
@@ -211,9 +211,9 @@ connections: [from -> seldom.a, from -> seldom.b, seldom.out -> to, often -> rel
       External::Diary plant;
       plant.lasts = times * 25ms;
       if (sensor_is_slow) plant.slow_at = times * 190ms;
-      std::vector<std::unique_ptr<ExternalSystem>> channels;
-      channels.push_back(std::make_unique<External>(plant));
-      JarolCore core(graph, std::move(channels));
+      std::vector<std::unique_ptr<ExternalSystem>> systems;
+      systems.push_back(std::make_unique<External>(plant));
+      JarolCore core(graph, std::move(systems));
       core.run_for(times * 350ms);
       CHECK(plant.taken <= 2);
       CHECK(plant.handed.size() <= 2);
@@ -233,9 +233,9 @@ connections: [c.out -> to_plant]
     CHECK(tests::at_some_speed([&](int times) {
       const Graph graph = graph_with_outside(tests::slowed(text, times));
       External::Diary plant;
-      std::vector<std::unique_ptr<ExternalSystem>> channels;
-      channels.push_back(std::make_unique<External>(plant));
-      JarolCore core(graph, std::move(channels));
+      std::vector<std::unique_ptr<ExternalSystem>> systems;
+      systems.push_back(std::make_unique<External>(plant));
+      JarolCore core(graph, std::move(systems));
       core.run_for(times * 200ms);
       // again where the machine was too slow for the round at 50 ms, or for the last
       if (core.threads_report().rounds > 16 || plant.handed.empty()) return false;
@@ -270,7 +270,7 @@ connections: [c.out -> to_plant]
       error = "nobody takes it";
     }
     SUBCASE("in several") { plant.lost_at = op.lost_at = 30ms; }
-    JarolCore core(graph, channels_of(plant, op));
+    JarolCore core(graph, systems_of(plant, op));
     CHECK_THROWS_WITH_AS(core.run_for(1h), error.c_str(), std::runtime_error);
     CHECK(core.now() >= 30ms);
     CHECK(core.now() < 1h);

@@ -59,11 +59,11 @@ class KeptLog : public RecordSink, public TakenValues {
   std::size_t next_ = 0;
 };
 
-tests::Run replay(const Graph& graph, Duration end, std::vector<std::unique_ptr<ExternalSystem>> channels,
+tests::Run replay(const Graph& graph, Duration end, std::vector<std::unique_ptr<ExternalSystem>> systems,
                   const std::vector<Miss>& misses) {
   tests::TraceLines lines(graph);
   Recorder recorder({&lines});
-  Executor executor(graph, std::move(channels), {.recorder = &recorder, .misses = misses});
+  Executor executor(graph, std::move(systems), {.recorder = &recorder, .misses = misses});
   executor.run_until(end);
   recorder.close();
   return {executor.report(), lines.lines};
@@ -240,13 +240,13 @@ tasks:
   under_way: {type: Patient, core: ANY, on_fault: hold, parameters: {waits: 2ms}}
 connections: [i -> a.in, a.out -> b.in, b.out -> o, a.out -> under_way.in]
 )"));
-      std::vector<std::unique_ptr<ExternalSystem>> channels;
-      channels.push_back(std::make_unique<Lost>(7));
+      std::vector<std::unique_ptr<ExternalSystem>> systems;
+      systems.push_back(std::make_unique<Lost>(7));
       KeptLog log(graph);
       Recorder recorder({&log});
       RealClock clock(graph.tasks.size());
       const std::vector<analysis::TaskThread> threads = analysis::threads_of(graph);
-      Executor executor(graph, std::move(channels), {.clock = &clock, .threads = threads, .log = &recorder});
+      Executor executor(graph, std::move(systems), {.clock = &clock, .threads = threads, .log = &recorder});
       clock.start();
       CHECK_THROWS_WITH_AS(executor.run_until(1s), "lost", std::runtime_error);
       recorder.close();

@@ -38,7 +38,7 @@ std::string with_outside(std::string text) {
   return text.replace(at, own.size(), "channel: p.sensor") + "distributers: {p: {type: Plant, link: {type: test}}}\n";
 }
 
-std::vector<std::unique_ptr<ExternalSystem>> channels_of(const Graph& graph) {
+std::vector<std::unique_ptr<ExternalSystem>> systems_of(const Graph& graph) {
   return graph.distributers.empty() ? std::vector<std::unique_ptr<ExternalSystem>>{} : tests::outside();
 }
 
@@ -56,7 +56,7 @@ Report record(const Graph& graph, const std::string& path, const How& how) {
   RealClock clock(graph.tasks.size());
   const std::vector<analysis::TaskThread> threads =
       how.real ? analysis::threads_of(graph) : std::vector<analysis::TaskThread>{};
-  Executor executor(graph, channels_of(graph),
+  Executor executor(graph, systems_of(graph),
                     {.recorder = &recorder,
                      .workers = how.workers,
                      .sharing = Sharing::always,

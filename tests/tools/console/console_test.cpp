@@ -76,7 +76,7 @@ TEST_SUITE("console/console") {
   }
 
   TEST_CASE("leaves have units, texts, words and what these mean") {
-    const Loaded loaded = tools::load_without_channels("specs/exolauv.yaml", {});
+    const Loaded loaded = tools::load_without_systems("specs/exolauv.yaml", {});
     const auto truth = no_truth(*loaded.graph);
     const json described =
         tools::console::describe_run({*loaded.graph, "specs/exolauv.yaml", "virtual", Duration::max(), truth});

@@ -10,12 +10,12 @@ Loaded load_recorded_graph(const Recording& recording, const std::string& file, 
                            bool with_truth) {
   Overrides overrides = recording.header().overrides;
   const RecordingHeader* const recorded = with_truth ? &recording.header() : nullptr;
-  if (!file.empty()) return load_without_channels(file, overrides, recorded);
+  if (!file.empty()) return load_without_systems(file, overrides, recorded);
   overrides.no_plugins =
       "the recording names this graph, and a recording names no code; name it yourself: " + command + " FILE GRAPH";
   SourceSet sources;
   give_recorded(recording, overrides, command + " FILE GRAPH", sources);
-  return load_without_channels(recording.header().file, overrides, recorded);
+  return load_without_systems(recording.header().file, overrides, recorded);
 }
 
 std::int64_t releases_before(const Task& task, Duration end) {

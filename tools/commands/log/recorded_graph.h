@@ -10,8 +10,8 @@
 
 namespace jarol::tools {
 
-/// As the run has read it, or `file` in its place, with the run's overrides and without channels. A recording names no
-/// code: a graph that has plugins is refused unless `file` names it. `command`: what the user is to call then.
+/// As the run has read it, or `file` in its place, with the run's overrides and without external systems. A recording
+/// names no code: a graph that has plugins is refused unless `file` names it. `command`: what the user is to call then.
 /// `with_truth`: what the recording has of where vehicles truly were is known.
 Loaded load_recorded_graph(const Recording& recording, const std::string& file, const std::string& command,
                            bool with_truth);

@@ -32,7 +32,7 @@ ReportReplay replay_for_report(RecordedRun& run, Loaded loaded, bool other_graph
   const CrashLine crash_line(*loaded.graph);
   replayed.measured = measure(run, *loaded.graph);
   const std::vector<Miss> misses = run.begin(*loaded.graph);
-  loaded.channels = recorded_systems(loaded, run);
+  loaded.systems = recorded_systems(loaded, run);
   ReplayedValues values(run, outputs_of(*loaded.graph));
   std::vector<RecordSink*> sinks;
   if (values.has_any()) sinks.push_back(&values);

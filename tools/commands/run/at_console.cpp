@@ -6,10 +6,10 @@ namespace jarol::tools {
 
 std::vector<console::DeskOperator> operators_at_console(const Loaded& loaded) {
   std::vector<console::DeskOperator> operators;
-  for (std::size_t i = 0; i < loaded.channels.size(); ++i) {
+  for (std::size_t i = 0; i < loaded.systems.size(); ++i) {
     const Distributer& distributer = loaded.graph->distributers[i];
-    if (auto* const channels = dynamic_cast<distributers::ConsoleSystem*>(loaded.channels[i].get()))
-      operators.push_back({distributer.name, distributer.distributer_class->name, channels->port()});
+    if (auto* const system = dynamic_cast<distributers::ConsoleSystem*>(loaded.systems[i].get()))
+      operators.push_back({distributer.name, distributer.distributer_class->name, system->port()});
   }
   return operators;
 }

@@ -45,10 +45,10 @@ void look_up_at_once() {
   throw Unfinished("--guard: the program can't be begun again: " + std::generic_category().message(errno));
 }
 
-std::unique_ptr<TaskGuard> make_guard(bool wanted, const Graph& graph, const std::vector<ExternalSystem*>& channels) {
+std::unique_ptr<TaskGuard> make_guard(bool wanted, const Graph& graph, const std::vector<ExternalSystem*>& systems) {
   if (!wanted) return nullptr;
-  for (std::size_t i = 0; i < channels.size(); ++i)
-    if (channels[i]->outlives_run())
+  for (std::size_t i = 0; i < systems.size(); ++i)
+    if (systems[i]->outlives_run())
       throw InputError("--guard: distributer '" + printable(graph.distributers[i].name) +
                        "' has a link to another process, which reads into memory while tasks run; state a "
                        "link to a vehicle in this one");

@@ -20,7 +20,7 @@ void require_guard_effect(const Command& command, bool guard, bool virtual_clock
 /// to memory of no task. Returns where this is so.
 void look_up_at_once();
 
-/// Null: it was not asked for. By the main thread; the channels are those of the graph. Throws InputError.
-std::unique_ptr<TaskGuard> make_guard(bool wanted, const Graph& graph, const std::vector<ExternalSystem*>& channels);
+/// Null: it was not asked for. By the main thread; the systems are those of the graph. Throws InputError.
+std::unique_ptr<TaskGuard> make_guard(bool wanted, const Graph& graph, const std::vector<ExternalSystem*>& systems);
 
 }  // namespace jarol::tools

@@ -25,8 +25,8 @@ Loaded load_graph(const std::shared_ptr<const Source>& source, const Overrides& 
   return jarol::load_graph(source, built_in(), overrides, seed, note_once);
 }
 
-Loaded load_without_channels(const std::string& path, const Overrides& overrides, const RecordingHeader* recorded) {
-  return jarol::load_without_channels(read_source(path), built_in(), overrides, note_once, recorded);
+Loaded load_without_systems(const std::string& path, const Overrides& overrides, const RecordingHeader* recorded) {
+  return jarol::load_without_systems(read_source(path), built_in(), overrides, note_once, recorded);
 }
 
 void print_note(const std::string& text) { std::cerr << "note: " << text << "\n"; }

@@ -14,9 +14,9 @@ Overrides without_changes(const Overrides& overrides);
 Loaded load_graph(const std::string& path, const Overrides& overrides, std::uint64_t seed = 0);
 Loaded load_graph(const std::shared_ptr<const Source>& source, const Overrides& overrides, std::uint64_t seed = 0);
 
-/// The same without channels: of the files that links name, none is needed. `recorded`: as of jarol's.
-Loaded load_without_channels(const std::string& path, const Overrides& overrides,
-                             const RecordingHeader* recorded = nullptr);
+/// The same without external systems: of the files that links name, none is needed. `recorded`: as of jarol's.
+Loaded load_without_systems(const std::string& path, const Overrides& overrides,
+                            const RecordingHeader* recorded = nullptr);
 
 /// A line on stderr.
 void print_note(const std::string& text);

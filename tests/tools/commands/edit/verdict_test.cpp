@@ -95,7 +95,7 @@ TEST_SUITE("editor/verdict") {
     for (const char* file : {"specs/counting.yaml", "specs/exolauv.yaml", "specs/exolauv_bare.yaml",
                              "specs/javiator.yaml", "specs/window.yaml", "specs/passthrough.yaml"}) {
       CAPTURE(file);
-      const Loaded loaded = tools::load_without_channels(file, {});
+      const Loaded loaded = tools::load_without_systems(file, {});
       Json of_graph = to_json(tools::lay_out(*loaded.graph));
       Json of_text = draw(EditedText{read_source(file), {}})["drawing"];
       // the places of connections are those in the text, or those in the graph

@@ -15,7 +15,7 @@ using tools::Drawing;
 using tools::DrawnArrow;
 using tools::DrawnNode;
 
-Drawing draw(const std::string& file) { return tools::lay_out(*tools::load_without_channels(file, {}).graph); }
+Drawing draw(const std::string& file) { return tools::lay_out(*tools::load_without_systems(file, {}).graph); }
 
 const DrawnNode& node(const Drawing& drawing, const std::string& name) {
   for (const DrawnNode& each : drawing.nodes)
