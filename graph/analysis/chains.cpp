@@ -11,13 +11,13 @@ namespace {
 
 // A point of logical time: the instant, and the step within it (specs/running.md, "An instant").
 struct Point {
-  std::int64_t instant;
+  Duration instant;
   int step;
 };
 
 // What reads and publishes with a period.
 struct Hop {
-  std::int64_t period, offset, let;
+  Duration period, offset, let;
   int read_step, publish_step;
 
   Point read(std::int64_t k) const { return {offset + k * period, read_step}; }
@@ -25,14 +25,14 @@ struct Hop {
 
   // The first activation that reads what was published at a point; who reads in the step of its producer follows it.
   std::int64_t first_after(Point p) const {
-    const std::int64_t earliest = p.instant + (p.step > read_step ? 1 : 0);
+    const Duration earliest = p.instant + Duration(p.step > read_step ? 1 : 0);
     if (earliest <= offset) return 0;
-    return (earliest - offset + period - 1) / period;
+    return (earliest - offset + period - Duration(1)) / period;
   }
   // The last activation whose output can be read at a point, or a negative one.
   std::int64_t last_before(Point p) const {
-    const std::int64_t latest = p.instant - (p.step < publish_step ? 1 : 0) - let - offset;
-    return latest < 0 ? -1 : latest / period;
+    const Duration latest = p.instant - Duration(p.step < publish_step ? 1 : 0) - let - offset;
+    return latest < Duration{} ? -1 : latest / period;
   }
 };
 
@@ -40,14 +40,14 @@ Hop hop_of(const Graph& graph, const End& end) {
   if (end.kind == End::Kind::communicator) {
     const Communicator& c = graph.communicators[end.index];
     const int step = c.direction == Direction::out ? 2 : 3;
-    return {c.period.count(), c.offset.count(), 0, step, step};
+    return {c.period, c.offset, Duration{}, step, step};
   }
   const Task& t = graph.tasks[end.index];
-  return {t.period.count(), t.offset.count(), t.let.value_or(Duration{}).count(), 4, t.let ? 1 : 4};
+  return {t.period, t.offset, t.let.value_or(Duration{}), 4, t.let ? 1 : 4};
 }
 
 // The activation of the last hop that first shows what activation k of the first read.
-std::int64_t forward(const std::vector<Hop>& hops, std::int64_t k, std::vector<std::int64_t>* at = nullptr) {
+std::int64_t forward(const std::vector<Hop>& hops, std::int64_t k, std::vector<Duration>* at = nullptr) {
   if (at != nullptr) at->assign(1, hops.front().read(k).instant);
   for (std::size_t i = 0; i < hops.size(); ++i) {
     if (i > 0) k = hops[i].first_after(hops[i - 1].publish(k));
@@ -71,9 +71,10 @@ ChainLatency latency_of(const Graph& graph, const std::vector<End>& path, Budget
   ChainLatency result;
   Wide lcm = 1, bound = 0, start = 0;
   for (const Hop& h : hops) {
-    bound += h.period + h.let;
-    start += h.offset + h.period + h.let;
-    const Wide next = lcm / std::gcd(static_cast<std::int64_t>(lcm), h.period) * h.period;
+    const std::int64_t period = h.period.count();
+    bound += (h.period + h.let).count();
+    start += (h.offset + h.period + h.let).count();
+    const Wide next = lcm / std::gcd(static_cast<std::int64_t>(lcm), period) * period;
     lcm = std::min<Wide>(next, static_cast<Wide>(1) << 62);
   }
   result.bound = saturated(bound);
@@ -82,8 +83,9 @@ ChainLatency latency_of(const Graph& graph, const std::vector<End>& path, Budget
   const bool open = graph.platform.phasing == Phasing::any;
   // the latest instant that is looked at is before that
   const bool fits = 2 * (start + lcm) + bound <= std::numeric_limits<std::int64_t>::max();
-  const auto steps = static_cast<Wide>(hops.size()) * (lcm / first.period + lcm / last.period);
-  const bool few = lcm / first.period <= max_activations && lcm / last.period <= max_activations;
+  const Wide reads = lcm / first.period.count(), outputs = lcm / last.period.count();
+  const auto steps = static_cast<Wide>(hops.size()) * (reads + outputs);
+  const bool few = reads <= max_activations && outputs <= max_activations;
   if (open || !fits || !few || steps > budget.left) {
     result.exact = false;
     result.max_reaction = result.max_reduced = result.max_age = result.max_reduced_age = result.bound;
@@ -91,21 +93,21 @@ ChainLatency latency_of(const Graph& graph, const std::vector<End>& path, Budget
   }
   budget.spend(static_cast<std::uint64_t>(steps));
   // forward, for every read of one repetition once all offsets are behind
-  const auto behind = static_cast<std::int64_t>(start);
-  const std::int64_t from = behind / first.period + 1, count = static_cast<std::int64_t>(lcm) / first.period;
-  result.min_reaction = std::numeric_limits<std::int64_t>::max();
+  const Duration behind(static_cast<std::int64_t>(start));
+  const std::int64_t from = behind / first.period + 1, to = from + static_cast<std::int64_t>(reads);
+  result.min_reaction = Duration::max();
   std::int64_t slowest = from;
-  for (std::int64_t k = from; k < from + count; ++k) {
-    const std::int64_t out = last.publish(forward(hops, k)).instant;
-    const std::int64_t reduced = out - first.read(k).instant;
+  for (std::int64_t k = from; k < to; ++k) {
+    const Duration out = last.publish(forward(hops, k)).instant;
+    const Duration reduced = out - first.read(k).instant;
     result.min_reaction = std::min(result.min_reaction, reduced);
     if (reduced > result.max_reduced) slowest = k;
     result.max_reduced = std::max(result.max_reduced, reduced);
     result.max_reaction = std::max(result.max_reaction, out - first.read(k - 1).instant);
   }
   // backward, for every output of one repetition: it is valid until the next one that rests on another read
-  const std::int64_t begin = (2 * behind) / last.period + 1, outputs = static_cast<std::int64_t>(lcm) / last.period;
-  for (std::int64_t k = begin; k < begin + outputs; ++k) {
+  const std::int64_t begin = (2 * behind) / last.period + 1, end = begin + static_cast<std::int64_t>(outputs);
+  for (std::int64_t k = begin; k < end; ++k) {
     const std::int64_t read = backward(hops, k);
     if (read < 0) continue;
     result.max_reduced_age = std::max(result.max_reduced_age, last.publish(k).instant - first.read(read).instant);
@@ -118,9 +120,8 @@ ChainLatency latency_of(const Graph& graph, const std::vector<End>& path, Budget
 
 std::vector<std::string> broken_limits(const Chain& chain, const ChainLatency& latency) {
   std::vector<std::string> broken;
-  const auto compare = [&](const char* what, std::int64_t is, const std::optional<Duration>& limit) {
-    if (limit && is > limit->count())
-      broken.push_back(what + (" " + duration_text(Duration(is))) + " over " + duration_text(*limit));
+  const auto compare = [&](const char* what, Duration is, const std::optional<Duration>& limit) {
+    if (limit && is > *limit) broken.push_back(what + (" " + duration_text(is)) + " over " + duration_text(*limit));
   };
   compare("reaction", latency.max_reaction, chain.reaction);
   compare("data age", latency.max_age, chain.age);

@@ -7,15 +7,15 @@
 namespace jarol::analysis {
 
 struct ChainLatency {
-  bool exact = true;  // else upper bounds, as the path repeats too late to be enumerated, or phasing is open
-  std::int64_t max_reaction = 0;  // ns: from a stimulus just missed by the first read to the first output that shows it
-  std::int64_t min_reaction = 0;  // ns: from a read to the first output that shows it
-  std::int64_t max_reduced = 0;   // ns: as max_reaction, counted from the read
-  std::int64_t max_age = 0;       // ns: from a read to the last instant at which an output of it is still valid
-  std::int64_t max_reduced_age = 0;  // ns: as max_age, up to the instant of the output
-  std::int64_t jitter = 0;           // ns: max_reduced - min_reaction
-  std::int64_t bound = 0;            // ns: sum of periods and LETs (Davare et al. 2007)
-  std::vector<std::int64_t> at;      // ns: the instants of the hops on the slowest way; the first is its read
+  bool exact = true;           // else upper bounds, as the path repeats too late to be enumerated, or phasing is open
+  Duration max_reaction{};     // from a stimulus just missed by the first read to the first output that shows it
+  Duration min_reaction{};     // from a read to the first output that shows it
+  Duration max_reduced{};      // as max_reaction, counted from the read
+  Duration max_age{};          // from a read to the last instant at which an output of it is still valid
+  Duration max_reduced_age{};  // as max_age, up to the instant of the output
+  Duration jitter{};           // max_reduced - min_reaction
+  Duration bound{};            // sum of periods and LETs (Davare et al. 2007)
+  std::vector<Duration> at;    // the instants of the hops on the slowest way; the first is its read
 };
 
 /// Of the latencies of one graph, what they take together at most.

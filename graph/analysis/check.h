@@ -16,14 +16,14 @@ struct Result {
   std::string reason;  // one sentence
   double utilisation = 0;
   // per task, in the order of the graph
-  std::vector<std::optional<std::int64_t>> response;  // ns from the arrival, whatever is late; an upper bound
-  std::vector<bool> exact;                            // that bound is reached
-  std::vector<std::optional<std::size_t>> core;       // where one runs it always
+  std::vector<std::optional<Duration>> response;  // from the arrival, whatever is late; an upper bound
+  std::vector<bool> exact;                        // that bound is reached
+  std::vector<std::optional<std::size_t>> core;   // where one runs it always
   // why not
   std::optional<std::size_t> core_at_fault;
   std::optional<DeadlineMiss> late;
-  std::vector<Slice> slices;     // on that core, before that
-  std::int64_t slices_from = 0;  // ns; of what ran later none is missing there
+  std::vector<Slice> slices;  // on that core, before that
+  Duration slices_from{};     // of what ran later none is missing there
   std::optional<Demand> demand;
 };
 

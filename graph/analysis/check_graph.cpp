@@ -12,10 +12,10 @@ namespace {
 double cost_of(const System& system) {
   const auto n = static_cast<double>(system.models.size());
   if (system.policy.urgency != Urgency::turn && !system.offsets_hold) return n * n;
-  const auto lcm = hyperperiod(system.models, std::int64_t{1} << 60);
+  const auto lcm = hyperperiod(system.models, max_time);
   double activations = 0;
   for (const TaskModel& m : system.models)
-    activations += lcm ? 2 * static_cast<double>(*lcm) / static_cast<double>(m.period) : 1e6;
+    activations += lcm ? 2 * static_cast<double>(lcm->count()) / static_cast<double>(m.period.count()) : 1e6;
   return std::max(n * n, activations);
 }
 

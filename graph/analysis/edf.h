@@ -9,9 +9,9 @@ namespace jarol::analysis {
 
 /// In [0, length] work of `demand` is due.
 struct Demand {
-  std::int64_t length = 0;
-  std::int64_t demand = 0;               // of tasks; the longest time that there is, where it is longer
-  std::int64_t blocking = 0;             // by what can't be preempted
+  Duration length{};
+  Duration demand{};                     // of tasks; the longest time that there is, where it is longer
+  Duration blocking{};                   // by what can't be preempted
   std::vector<std::int64_t> releases{};  // per task, how many are due
 };
 

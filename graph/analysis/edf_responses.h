@@ -9,7 +9,7 @@ namespace jarol::analysis {
 /// not: Spuri 1996, non-preemptive George, Rivierre, Spuri 1996. Where that would take long, the deadline less the
 /// least time that is left in any interval, which no response is beyond. Empty if utilisation is beyond one or that
 /// takes long too.
-std::vector<std::int64_t> edf_responses(std::span<const TaskModel> models, bool preemptive, Budget& budget);
+std::vector<Duration> edf_responses(std::span<const TaskModel> models, bool preemptive, Budget& budget);
 
 /// Is a task late with its own `blocking` alone, where of equal deadlines the task that stands first goes first? False
 /// if that takes long.

@@ -10,7 +10,7 @@ namespace jarol::analysis {
 
 ExecutionTimes::ExecutionTimes(const Graph& graph, std::uint64_t seed) {
   for (const Task& task : graph.tasks) {
-    const std::int64_t wcet = task.wcet.value_or(Duration{}).count();
+    const Duration wcet = task.wcet.value_or(Duration{});
     tasks_.push_back({spread_seed(seed, "execution of " + task.name), {{wcet, wcet}}});
   }
 }
@@ -19,7 +19,7 @@ ExecutionTimes ExecutionTimes::wcet(const Graph& graph) { return ExecutionTimes(
 
 ExecutionTimes ExecutionTimes::random(const Graph& graph, std::uint64_t seed) {
   ExecutionTimes made(graph, seed);
-  for (OfTask& task : made.tasks_) task.spans[0].min = 1;
+  for (OfTask& task : made.tasks_) task.spans[0].min = Duration(1);
   return made;
 }
 
@@ -31,12 +31,10 @@ bool ExecutionTimes::read_span(const Yaml& yaml, const std::string& subject, Spa
   }
   const std::size_t dots = yaml.text.find("..");
   std::string wrong;
-  const auto parse = [&](const std::string& text, std::int64_t& to) {
-    Duration time{};
-    wrong = parse_duration(text, time);
-    if (wrong.empty() && time < Duration{}) wrong = "is below zero";
-    if (wrong.empty() && time > longest_duration) wrong = "is longer than ten years";
-    to = time.count();
+  const auto parse = [&](const std::string& text, Duration& to) {
+    wrong = parse_duration(text, to);
+    if (wrong.empty() && to < Duration{}) wrong = "is below zero";
+    if (wrong.empty() && to > longest_duration) wrong = "is longer than ten years";
     return wrong.empty();
   };
   if (dots == std::string::npos) {
@@ -85,13 +83,13 @@ ExecutionTimes ExecutionTimes::read(const Graph& graph, const std::shared_ptr<co
   return made;
 }
 
-std::int64_t ExecutionTimes::operator()(std::size_t task, std::int64_t activation) const {
+Duration ExecutionTimes::operator()(std::size_t task, std::int64_t activation) const {
   const OfTask& of = tasks_[task];
   const Span& span = of.spans[static_cast<std::size_t>(activation) % of.spans.size()];
-  const auto width = static_cast<std::uint64_t>(span.max - span.min) + 1;
+  const auto width = static_cast<std::uint64_t>((span.max - span.min).count()) + 1;
   if (width <= 1) return span.min;
   const std::uint64_t drawn = digest::fold(of.seed ^ static_cast<std::uint64_t>(activation), digest::key(2));
-  return span.min + static_cast<std::int64_t>(drawn % width);
+  return span.min + Duration(static_cast<std::int64_t>(drawn % width));
 }
 
 Schedule schedule_of(const Graph& graph, ExecutionTimes times) {

@@ -21,13 +21,13 @@ class ExecutionTimes {
   static ExecutionTimes read(const Graph& graph, const std::shared_ptr<const Source>& source, std::uint64_t seed,
                              Problems& problems);
 
-  std::int64_t operator()(std::size_t task, std::int64_t activation) const;
+  Duration operator()(std::size_t task, std::int64_t activation) const;
 
  private:
   explicit ExecutionTimes(const Graph& graph, std::uint64_t seed = 0);
 
   struct Span {
-    std::int64_t min = 0, max = 0;  // ns
+    Duration min{}, max{};
   };
   struct OfTask {
     std::uint64_t seed = 0;

@@ -10,7 +10,7 @@ namespace {
 
 // When the core may be free next.
 struct Free {
-  std::int64_t earliest = 0, latest = 0;
+  Duration earliest{}, latest{};
   std::int64_t repetitions = 0;  // that were taken off
 };
 
@@ -25,7 +25,7 @@ bool add(std::vector<Free>& intervals, Free added) {
     if (f.earliest <= added.earliest && added.latest <= f.latest) return false;
   for (std::size_t i = 0; i < intervals.size();) {
     const Free& f = intervals[i];
-    if (f.latest + 1 < added.earliest || added.latest + 1 < f.earliest) {
+    if (f.latest + Duration(1) < added.earliest || added.latest + Duration(1) < f.earliest) {
       ++i;
       continue;
     }
@@ -46,8 +46,8 @@ class Explorer {
         producers_(tasks.models.size()),
         inherited_(inheriting_loads(tasks)),
         ready_at_(tasks) {
-    result_.responses.resize(loads_.size(), 0);
-    jitters_ = std::any_of(loads_.begin(), loads_.end(), [](const TaskModel& m) { return m.jitter > 0; });
+    result_.responses.resize(loads_.size());
+    jitters_ = std::any_of(loads_.begin(), loads_.end(), [](const TaskModel& m) { return m.jitter > Duration{}; });
     for (const auto& [producer, reader] : tasks.follows) producers_[reader].push_back(producer);
   }
 
@@ -55,13 +55,13 @@ class Explorer {
     const auto lcm = hyperperiod(loads_, max_time / 8);
     if (!lcm || loads_.empty()) return std::move(result_);
     repetition_ = *lcm;
-    std::vector<std::int64_t> lengths{0};
+    std::vector<Duration> lengths{Duration{}};
     for (const TaskModel& m : loads_)
       if (std::find(lengths.begin(), lengths.end(), m.blocking) == lengths.end()) lengths.push_back(m.blocking);
     // first who is late for sure by what may hold up itself, then whoever may be late by what holds up others
     for (const bool all_count : {false, true})
-      for (const std::int64_t length : lengths) {
-        if (all_count && length == 0) continue;
+      for (const Duration length : lengths) {
+        if (all_count && length == Duration{}) continue;
         all_count_ = all_count;
         if (!run_with(length)) return std::move(result_);
       }
@@ -71,11 +71,11 @@ class Explorer {
 
  private:
   // Held up once, for `blocking`: that is what is left of it at most when one starts that waited for it.
-  bool run_with(std::int64_t blocking) {
+  bool run_with(Duration blocking) {
     blocking_ = blocking;
     known_.clear();
     // idle before it began
-    States now{{Started(loads_.size() + 1, 0), {Free{-1, -1, 0}}}};
+    States now{{Started(loads_.size() + 1, 0), {Free{Duration(-1), Duration(-1), 0}}}};
     while (!now.empty()) {
       next_.clear();
       for (const auto& [started, intervals] : now)
@@ -88,7 +88,8 @@ class Explorer {
 
   struct Next {
     std::size_t task;
-    std::int64_t arrival, latest, urgency;
+    Duration arrival, latest;
+    std::int64_t urgency;  // less first
   };
 
   // Those that may start next: of each task the first, where what it follows has started.
@@ -96,14 +97,15 @@ class Explorer {
     candidates_.clear();
     for (std::size_t i = 0; i < loads_.size(); ++i) {
       const TaskModel& m = loads_[i];
-      const std::int64_t arrival = m.offset + started[i] * m.period;
+      const Duration arrival = m.offset + started[i] * m.period;
       const auto waits_for = [&](std::size_t p) {
-        const std::int64_t since = arrival - loads_[p].offset;
-        return since >= 0 && since % loads_[p].period == 0 && started[p] <= since / loads_[p].period;
+        const Duration since = arrival - loads_[p].offset;
+        return since >= Duration{} && since % loads_[p].period == Duration{} && started[p] <= since / loads_[p].period;
       };
       if (std::any_of(producers_[i].begin(), producers_[i].end(), waits_for)) continue;
-      candidates_.push_back({i, arrival, arrival + m.jitter,
-                             order_ == Order::by_priority ? static_cast<std::int64_t>(i) : arrival + m.deadline});
+      candidates_.push_back(
+          {i, arrival, arrival + m.jitter,
+           order_ == Order::by_priority ? static_cast<std::int64_t>(i) : (arrival + m.deadline).count()});
     }
     std::sort(candidates_.begin(), candidates_.end(),
               [](const Next& a, const Next& b) { return std::pair(a.urgency, a.task) < std::pair(b.urgency, b.task); });
@@ -113,19 +115,19 @@ class Explorer {
   bool go_on(const Started& started, const Free& free) {
     if (!budget_.spend(20 * loads_.size())) return false;
     find_candidates(started);
-    std::int64_t any = max_time;  // by then one is released for sure
+    Duration any = max_time;  // by then one is released for sure
     for (const Next& c : candidates_) any = std::min(any, c.latest);
     const std::int64_t hold_up = started.back();
-    if (blocking_ > 0 && hold_up == before && any > free.earliest) {
+    if (blocking_ > Duration{} && hold_up == before && any > free.earliest) {
       Started held = started;
       held.back() = under_way;
-      put(std::move(held), {free.earliest + 1, all_count_ ? any : any + blocking_, free.repetitions});
+      put(std::move(held), {free.earliest + Duration(1), all_count_ ? any : any + blocking_, free.repetitions});
     }
     const auto is_held_up = [&](const Next& c) {
       return hold_up == under_way && blocking_ <= inherited_[c.task].blocking;
     };
     // who is less urgent than one that waits does not interrupt
-    std::int64_t one_interrupts = max_time, one_waits = max_time;
+    Duration one_interrupts = max_time, one_waits = max_time;
     for (const Next& c : candidates_) {
       if (is_held_up(c))
         one_waits = std::min(one_waits, c.latest);
@@ -133,26 +135,26 @@ class Explorer {
         one_interrupts = std::min(one_interrupts, c.latest);
     }
     // by then one starts that waited for it, or one that interrupts it
-    const std::int64_t waited = std::max(free.latest, any) + blocking_;
-    const std::int64_t interrupted = std::max(free.latest, std::min(one_interrupts, waited));
-    std::int64_t more_urgent = max_time;  // by then one that goes before is
+    const Duration waited = std::max(free.latest, any) + blocking_;
+    const Duration interrupted = std::max(free.latest, std::min(one_interrupts, waited));
+    Duration more_urgent = max_time;  // by then one that goes before is
     for (const Next& c : candidates_) {
       const bool waits = all_count_ && is_held_up(c);
-      const std::int64_t busy = !all_count_ || hold_up != under_way ? std::max(free.latest, any)
-                                : waits                             ? waited
-                                                                    : interrupted;
-      const std::int64_t from = std::max(free.earliest, c.arrival), to = std::min(busy, more_urgent - 1);
+      const Duration busy = !all_count_ || hold_up != under_way ? std::max(free.latest, any)
+                            : waits                             ? waited
+                                                                : interrupted;
+      const Duration from = std::max(free.earliest, c.arrival), to = std::min(busy, more_urgent - Duration(1));
       more_urgent = std::min(more_urgent, c.latest);
       if (from > to) continue;
       const TaskModel& m = loads_[c.task];
-      const std::int64_t finish = to + m.wcet;
+      const Duration finish = to + m.wcet;
       const bool counts = all_count_ || hold_up == before || is_held_up(c);
       if (counts) result_.responses[c.task] = std::max(result_.responses[c.task], finish - c.arrival);
       if (counts && finish > c.arrival + m.deadline) {
         // for sure only by what holds up those of its instant
-        const std::int64_t sure = jitters_ ? m.blocking : ready_at_(c.task, c.arrival).blocking;
+        const Duration sure = jitters_ ? m.blocking : ready_at_(c.task, c.arrival).blocking;
         if (hold_up != before && (all_count_ || blocking_ > sure)) return !(doubtful_ = true);
-        const std::int64_t shift = free.repetitions * repetition_;
+        const Duration shift = free.repetitions * repetition_;
         result_.late = DeadlineMiss{c.task, started[c.task] + shift / m.period, c.arrival + shift, finish + shift,
                                     c.arrival + m.deadline + shift};
         result_.whole = true;
@@ -182,7 +184,7 @@ class Explorer {
   Budget& budget_;
   std::vector<std::vector<std::size_t>> producers_;
   std::vector<Next> candidates_;
-  std::int64_t repetition_ = 0, blocking_ = 0;
+  Duration repetition_{}, blocking_{};
   TaskModels inherited_;
   ReadinessAt ready_at_;
   bool jitters_ = false, doubtful_ = false, all_count_ = false;

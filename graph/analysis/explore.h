@@ -8,7 +8,7 @@ namespace jarol::analysis {
 struct Exploration {
   bool whole = false;  // every state was looked at, or a late activation found
   std::optional<DeadlineMiss> late;
-  std::vector<std::int64_t> responses;  // per model, the longest
+  std::vector<Duration> responses;  // per model, the longest
 };
 
 /// The schedule-abstraction graph of one core (Nasri, Brandenburg 2017), exact: a state is which activations have

@@ -12,8 +12,8 @@ struct UrgentJob {
   std::int64_t urgency = 0;  // less first
   std::size_t task = 0;
   std::int64_t activation = 0;
-  std::int64_t arrival = 0;
-  std::int64_t left = 0;
+  Duration arrival{};
+  Duration left{};
   std::tuple<std::int64_t, std::size_t, std::int64_t> key() const { return {urgency, task, activation}; }
   bool operator>(const UrgentJob& other) const { return key() > other.key(); }
 };
@@ -27,7 +27,7 @@ class Walker {
         beyond_late_(beyond_late),
         budget_(budget),
         ready_at_(tasks) {
-    result_.responses.resize(loads_.size(), 0);
+    result_.responses.resize(loads_.size());
     for (const TaskModel& m : loads_) {
       longest_jitter_ = std::max(longest_jitter_, m.jitter);
       last_offset_ = std::max(last_offset_, m.offset);
@@ -42,8 +42,8 @@ class Walker {
     repetition_ = *lcm;
     const auto starts = latest_releases(last_offset_ + longest_jitter_ + *lcm);
     if (budget_.spent()) return std::move(result_);
-    for (const std::int64_t blocking : blockings_)
-      for (const std::int64_t start : starts)
+    for (const Duration blocking : blockings_)
+      for (const Duration start : starts)
         if (!walk_from(start, blocking)) return std::move(result_);
     result_.whole = !doubtful_;
     return std::move(result_);
@@ -51,30 +51,30 @@ class Walker {
 
  private:
   // In order, each once.
-  std::vector<std::int64_t> latest_releases(std::int64_t until) {
-    std::vector<std::int64_t> starts;
+  std::vector<Duration> latest_releases(Duration until) {
+    std::vector<Duration> starts;
     for (std::size_t i = 0; i < loads_.size(); ++i)
-      for (std::int64_t a = loads_[i].offset; a < until && budget_.spend(10); a += loads_[i].period)
+      for (Duration a = loads_[i].offset; a < until && budget_.spend(10); a += loads_[i].period)
         starts.push_back(a + ready_at_(i, a).jitter);
     std::sort(starts.begin(), starts.end());
     starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
     return starts;
   }
 
-  using Arrival = std::pair<std::int64_t, std::size_t>;  // when, of which task
+  using Arrival = std::pair<Duration, std::size_t>;  // when, of which task
 
   UrgentJob job_at(const Arrival& a) const {
     const TaskModel& m = loads_[a.second];
     const std::int64_t urgency =
-        order_ == Order::by_priority ? static_cast<std::int64_t>(a.second) : a.first + m.deadline;
+        order_ == Order::by_priority ? static_cast<std::int64_t>(a.second) : (a.first + m.deadline).count();
     return {urgency, a.second, (a.first - m.offset) / m.period, a.first, m.wcet};
   }
 
   // Held up for `blocking` at the start, of those activations that can be for so long. False if one is late, or there
   // is no more effort.
-  bool walk_from(std::int64_t start, std::int64_t blocking) {
+  bool walk_from(Duration start, Duration blocking) {
     // from then on each repetition leaves no more than the one before it
-    const std::int64_t end = start + last_offset_ + 2 * repetition_ + longest_jitter_;
+    const Duration end = start + last_offset_ + 2 * repetition_ + longest_jitter_;
     MinFirst<Arrival> arrivals;
     MinFirst<UrgentJob> ready;
     std::size_t open = 0;  // that arrived before the end
@@ -84,16 +84,17 @@ class Walker {
     };
     for (std::size_t i = 0; i < loads_.size(); ++i) {
       const TaskModel& m = loads_[i];
-      const std::int64_t back = start - m.jitter - m.offset;
-      std::int64_t a = m.offset + (back <= 0 ? 0 : ceil_div(back, m.period)) * m.period;
+      const Duration back = start - m.jitter - m.offset;
+      Duration a = m.offset;
+      if (back > Duration{}) a += m.period * static_cast<std::int64_t>(ceil_div(back.count(), m.period.count()));
       for (; a <= start; a += m.period)
         if (a + ready_at_(i, a).jitter >= start) arrive({a, i});
       arrivals.emplace(a, i);
     }
     if (!budget_.spend(loads_.size() * 4 + 10)) return false;
     std::vector<Slice> slices;
-    result_.slices_from = result_.late ? result_.slices_from : 0;
-    std::int64_t now = start + blocking;
+    result_.slices_from = result_.late ? result_.slices_from : Duration{};
+    Duration now = start + blocking;
     while (now < end || open > 0) {
       while (arrivals.top().first <= now) {
         const Arrival a = arrivals.top();
@@ -105,11 +106,11 @@ class Walker {
       if (ready.empty()) return true;
       UrgentJob running = ready.top();
       ready.pop();
-      const std::int64_t stop = std::min(now + running.left, arrivals.top().first);
+      const Duration stop = std::min(now + running.left, arrivals.top().first);
       add(slices, {running.task, running.activation, now, stop});
       running.left -= stop - now;
       now = stop;
-      if (running.left > 0) {
+      if (running.left > Duration{}) {
         ready.push(running);
         continue;
       }
@@ -132,21 +133,21 @@ class Walker {
   }
 
   // Under EDF what holds up one of an earlier deadline holds up those that wait behind it.
-  std::int64_t blocking_of(const UrgentJob& job, std::int64_t start) const {
+  Duration blocking_of(const UrgentJob& job, Duration start) const {
     if (order_ == Order::by_priority) return loads_[job.task].blocking;
-    std::int64_t max = 0;
+    Duration max{};
     for (const TaskModel& m : loads_)
-      if (m.deadline - m.jitter <= job.urgency - start) max = std::max(max, m.blocking);
+      if (m.deadline - m.jitter <= Duration(job.urgency) - start) max = std::max(max, m.blocking);
     return max;
   }
 
-  bool close(const UrgentJob& job, std::int64_t now, std::int64_t blocking, std::vector<Slice>& slices) {
+  bool close(const UrgentJob& job, Duration now, Duration blocking, std::vector<Slice>& slices) {
     result_.responses[job.task] = std::max(result_.responses[job.task], now - job.arrival);
-    const std::int64_t deadline = job.arrival + loads_[job.task].deadline;
+    const Duration deadline = job.arrival + loads_[job.task].deadline;
     if (now <= deadline) return true;
     // for sure only by what holds itself up, or one of its instant that has not gone before it
-    const std::int64_t own = tasks_.models[job.task].blocking;
-    const std::int64_t sure = longest_jitter_ > 0 ? own : ready_at_(job.task, job.arrival).blocking;
+    const Duration own = tasks_.models[job.task].blocking;
+    const Duration sure = longest_jitter_ > Duration{} ? own : ready_at_(job.task, job.arrival).blocking;
     if (blocking > sure) return doubtful_ = true;
     if (!result_.late) {
       result_.late = DeadlineMiss{job.task, job.activation, job.arrival, now, deadline};
@@ -162,8 +163,8 @@ class Walker {
   Budget& budget_;
   ReadinessAt ready_at_;
   bool doubtful_ = false;  // late by what another is held up for
-  std::vector<std::int64_t> blockings_;
-  std::int64_t longest_jitter_ = 0, last_offset_ = 0, repetition_ = 0;
+  std::vector<Duration> blockings_;
+  Duration longest_jitter_{}, last_offset_{}, repetition_{};
   Extremes result_;
 };
 

@@ -10,9 +10,9 @@ struct Extremes {
   bool whole = false;  // every busy period was looked at, and none is late in doubt
   bool idle = true;    // each came to its end
   std::optional<DeadlineMiss> late;
-  std::vector<std::int64_t> responses;  // per model, the longest
-  std::vector<Slice> slices;            // before the late activation ended
-  std::int64_t slices_from = 0;         // ns; of what ran later none is missing there
+  std::vector<Duration> responses;  // per model, the longest
+  std::vector<Slice> slices;        // before the late activation ended
+  Duration slices_from{};           // of what ran later none is missing there
 };
 
 /// What an activation waits for lies within a busy period, which begins at some instant t with a release. It is longest

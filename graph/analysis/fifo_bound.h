@@ -10,6 +10,6 @@ namespace jarol::analysis {
 /// maximum of sums along the way to it; Le Boudec, Thiran 2001, of FIFO). How offsets relate modulo the common divisor
 /// of two periods says how near before an arrival another can be. Cores that wait for each other count as one. Empty if
 /// a bound lies beyond its deadline, a core is all but full, or it would take more effort.
-std::vector<std::int64_t> fifo_bounds(const System& system, const std::vector<std::size_t>& core, Budget& budget);
+std::vector<Duration> fifo_bounds(const System& system, const std::vector<std::size_t>& core, Budget& budget);
 
 }  // namespace jarol::analysis

@@ -7,7 +7,7 @@
 namespace jarol::analysis {
 namespace {
 
-constexpr std::int64_t far = std::int64_t{1} << 61;
+constexpr Duration far{std::int64_t{1} << 61};
 constexpr std::uint64_t max_steps_of_all = 2'000'000'000;  // of all tasks together
 constexpr std::int64_t max_in_period = 1'000'000;          // of one task in a busy period
 
@@ -16,11 +16,11 @@ class Interference {
  public:
   void add(const TaskModel& model) {
     const auto [at, added] = index_.emplace(std::pair(model.period, model.jitter), work_.size());
-    if (added) work_.push_back({model.period, model.jitter, 0});
-    work_[at->second].wcet += model.wcet;
+    if (added) work_.push_back({model.period.count(), model.jitter.count(), 0});
+    work_[at->second].wcet += model.wcet.count();
   }
 
-  // Releases in a window of that length, closed at its end or not.
+  // Of releases in a window of that length in ns, closed at its end or not.
   Wide demand(std::int64_t window, bool closed) const {
     Wide sum = 0;
     for (const Work& w : work_) {
@@ -34,58 +34,60 @@ class Interference {
 
  private:
   struct Work {
-    std::int64_t period, jitter, wcet;
+    std::int64_t period, jitter, wcet;  // ns
   };
   std::vector<Work> work_;
-  std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> index_;  // by period and jitter
+  std::map<std::pair<Duration, Duration>, std::size_t> index_;  // by period and jitter
 };
 
 // The least window that `need` maps to itself, from `start` on; nothing beyond `max`.
 template <class Need>
-std::optional<std::int64_t> min_fixed_point(std::int64_t start, std::int64_t max, Budget& budget, std::size_t cost,
-                                            const Need& need) {
-  std::int64_t window = start;
+std::optional<Duration> min_fixed_point(Duration start, Duration max, Budget& budget, std::size_t cost,
+                                        const Need& need) {
+  std::int64_t window = start.count();
   while (true) {
     const Wide next = need(window);
-    if (!budget.spend(cost) || next > max) return std::nullopt;
-    if (next == window) return window;
+    if (!budget.spend(cost) || next > max.count()) return std::nullopt;
+    if (next == window) return Duration(window);
     window = static_cast<std::int64_t>(next);
   }
 }
 
 // `repeats`: of activations so much later none responds later, as demand grows no more than time does; else far.
-std::optional<std::int64_t> preemptive_response(const TaskModel& model, const Interference& more_urgent,
-                                                std::int64_t repeats, std::int64_t& first_window, Budget& budget) {
+std::optional<Duration> preemptive_response(const TaskModel& model, const Interference& more_urgent, Duration repeats,
+                                            Duration& first_window, Budget& budget) {
   // it does not run before the one above it has ended, and runs then
-  std::int64_t response = 0, window = std::max(model.blocking, first_window) + model.wcet;
+  Duration response{}, window = std::max(model.blocking, first_window) + model.wcet;
   for (std::int64_t q = 0;; ++q) {
     if (q == max_in_period) return std::nullopt;
-    const Wide own = static_cast<Wide>(model.blocking) + static_cast<Wide>(q + 1) * model.wcet;
-    const auto end = min_fixed_point(std::max(window, static_cast<std::int64_t>(own)), far, budget, more_urgent.size(),
-                                     [&](std::int64_t w) { return own + more_urgent.demand(w, false); });
+    const Wide own = static_cast<Wide>(model.blocking.count()) + static_cast<Wide>(q + 1) * model.wcet.count();
+    const auto end =
+        min_fixed_point(std::max(window, Duration(static_cast<std::int64_t>(own))), far, budget, more_urgent.size(),
+                        [&](std::int64_t w) { return own + more_urgent.demand(w, false); });
     if (!end) return std::nullopt;
     window = *end;
-    if (q == 0) first_window = model.blocking == 0 ? window : first_window + model.wcet;
+    if (q == 0) first_window = model.blocking == Duration{} ? window : first_window + model.wcet;
     response = std::max(response, window - q * model.period + model.jitter);
     if (window + model.jitter <= (q + 1) * model.period) return response;
     if ((q + 1) * model.period > repeats) return response;
   }
 }
 
-std::optional<std::int64_t> nonpreemptive_response(const TaskModel& model, const Interference& more_urgent,
-                                                   std::int64_t blocking, std::int64_t repeats, Budget& budget) {
+std::optional<Duration> nonpreemptive_response(const TaskModel& model, const Interference& more_urgent,
+                                               Duration blocking, Duration repeats, Budget& budget) {
   Interference busy = more_urgent;
   busy.add(model);
-  auto length = min_fixed_point(std::max<std::int64_t>(1, blocking), repeats, budget, busy.size(),
-                                [&](std::int64_t w) { return blocking + busy.demand(w, false); });
+  auto length = min_fixed_point(std::max(Duration(1), blocking), repeats, budget, busy.size(),
+                                [&](std::int64_t w) { return blocking.count() + busy.demand(w, false); });
   if (!length && repeats < far) length = repeats;
   if (!length || *length / model.period > max_in_period) return std::nullopt;
-  std::int64_t response = 0, start = blocking;
+  Duration response{}, start = blocking;
   // those that arrive later end at `length` at the latest, so that they respond within their jitter, as the first can't
   for (std::int64_t q = 0; q * model.period < *length; ++q) {
-    const Wide own = static_cast<Wide>(blocking) + static_cast<Wide>(q) * model.wcet;
-    const auto found = min_fixed_point(std::max(start, static_cast<std::int64_t>(own)), far, budget, more_urgent.size(),
-                                       [&](std::int64_t w) { return own + more_urgent.demand(w, true); });
+    const Wide own = static_cast<Wide>(blocking.count()) + static_cast<Wide>(q) * model.wcet.count();
+    const auto found =
+        min_fixed_point(std::max(start, Duration(static_cast<std::int64_t>(own))), far, budget, more_urgent.size(),
+                        [&](std::int64_t w) { return own + more_urgent.demand(w, true); });
     if (!found) return std::nullopt;
     start = *found;
     response = std::max(response, start + model.wcet - q * model.period + model.jitter);
@@ -93,18 +95,18 @@ std::optional<std::int64_t> nonpreemptive_response(const TaskModel& model, const
   return response;
 }
 
-std::vector<std::optional<std::int64_t>> responses_of(std::span<const TaskModel> models, bool preemptive,
-                                                      Budget& budget) {
-  std::vector<std::optional<std::int64_t>> responses(models.size());
+std::vector<std::optional<Duration>> responses_of(std::span<const TaskModel> models, bool preemptive, Budget& budget) {
+  std::vector<std::optional<Duration>> responses(models.size());
   // by what has begun and can't be interrupted: at most all but its first nanosecond
-  std::vector<std::int64_t> longest_below(models.size(), 0);
-  for (std::size_t i = models.size(); i-- > 1;) longest_below[i - 1] = std::max(longest_below[i], models[i].wcet - 1);
+  std::vector<Duration> longest_below(models.size());
+  for (std::size_t i = models.size(); i-- > 1;)
+    longest_below[i - 1] = std::max(longest_below[i], models[i].wcet - Duration(1));
   Interference more_urgent;
-  std::int64_t first_window = 0;
+  Duration first_window{};
   long double used = 0;
-  std::optional<std::int64_t> repeats = 1;
+  std::optional<Duration> repeats(1);
   for (std::size_t i = 0; i < models.size(); ++i) {
-    used += static_cast<long double>(models[i].wcet) / static_cast<long double>(models[i].period);
+    used += static_cast<long double>(models[i].wcet.count()) / static_cast<long double>(models[i].period.count());
     // near to one without rounding
     const auto order =
         used < 1 - 1e-9L ? std::optional(std::strong_ordering::less) : compare_utilisation(models.first(i + 1), 1);
@@ -121,8 +123,8 @@ std::vector<std::optional<std::int64_t>> responses_of(std::span<const TaskModel>
 
 }  // namespace
 
-std::vector<std::optional<std::int64_t>> fixed_priority_responses(std::span<const TaskModel> models, bool preemptive,
-                                                                  Budget& budget) {
+std::vector<std::optional<Duration>> fixed_priority_responses(std::span<const TaskModel> models, bool preemptive,
+                                                              Budget& budget) {
   return within(budget, max_steps_of_all, [&](Budget& own) { return responses_of(models, preemptive, own); });
 }
 

@@ -6,16 +6,16 @@ namespace jarol::analysis {
 namespace {
 
 // Most that a task executes in any window: carried in as late as its slack allows (Bertogna, Cirinei 2007, eq. 4).
-std::int64_t workload(const TaskModel& task, std::int64_t slack, std::int64_t window) {
-  const std::int64_t reach = window + task.deadline - task.wcet - slack;
+Duration workload(const TaskModel& task, Duration slack, Duration window) {
+  const Duration reach = window + task.deadline - task.wcet - slack;
   const std::int64_t whole = reach / task.period;
   return whole * task.wcet + std::min(task.wcet, reach - whole * task.period);
 }
 
 // The same for a window that ends with a deadline that EDF puts before: aligned at deadlines (eq. 6).
-std::int64_t before_deadline(const TaskModel& task, std::int64_t slack, std::int64_t deadline) {
+Duration before_deadline(const TaskModel& task, Duration slack, Duration deadline) {
   const std::int64_t whole = deadline / task.period;
-  return whole * task.wcet + std::min(task.wcet, std::max<std::int64_t>(0, deadline - whole * task.period - slack));
+  return whole * task.wcet + std::min(task.wcet, std::max(Duration{}, deadline - whole * task.period - slack));
 }
 
 }  // namespace
@@ -24,8 +24,8 @@ bool passes_gfb(std::span<const TaskModel> models, std::int64_t cores) {
   long double sum = 0, largest = 0;
   for (const TaskModel& task : models) {
     if (std::min(task.deadline, task.period) <= task.jitter) return false;
-    const long double density = static_cast<long double>(task.wcet) /
-                                static_cast<long double>(std::min(task.deadline, task.period) - task.jitter);
+    const long double density = static_cast<long double>(task.wcet.count()) /
+                                static_cast<long double>((std::min(task.deadline, task.period) - task.jitter).count());
     sum += density;
     largest = std::max(largest, density);
   }
@@ -33,29 +33,30 @@ bool passes_gfb(std::span<const TaskModel> models, std::int64_t cores) {
   return largest <= 1 && sum * (1 + 1e-15L) <= m - (m - 1) * largest;
 }
 
-std::vector<std::optional<std::int64_t>> global_edf_responses(std::span<const TaskModel> models, std::int64_t cores,
-                                                              Budget& budget) {
+std::vector<std::optional<Duration>> global_edf_responses(std::span<const TaskModel> models, std::int64_t cores,
+                                                          Budget& budget) {
   constexpr int max_rounds = 100, plain_steps = 100;
-  std::vector<std::optional<std::int64_t>> responses(models.size());
+  std::vector<std::optional<Duration>> responses(models.size());
   for (const TaskModel& task : models)
     if (task.wcet > task.deadline - task.jitter) return responses;
-  std::vector<std::int64_t> slack(models.size(), 0);
+  std::vector<Duration> slack(models.size());
   bool changed = true;
   for (int round = 0; changed && round < max_rounds; ++round) {
     changed = false;
     for (std::size_t k = 0; k < models.size(); ++k) {
       const TaskModel& own = models[k];
       // from the release on
-      const std::int64_t max = own.deadline - own.jitter;
-      std::int64_t response = own.wcet;
+      const Duration max = own.deadline - own.jitter;
+      Duration response = own.wcet;
       for (int step = 0; response <= max; ++step) {
         if (!budget.spend(2 * models.size())) return responses;
         Wide sum = 0;
         for (std::size_t i = 0; i < models.size(); ++i)
           if (i != k)
             sum += std::min({workload(models[i], slack[i], response),
-                             before_deadline(models[i], slack[i], own.deadline), response - own.wcet + 1});
-        const std::int64_t next = own.wcet + static_cast<std::int64_t>(sum / cores);
+                             before_deadline(models[i], slack[i], own.deadline), response - own.wcet + Duration(1)})
+                       .count();
+        const Duration next = own.wcet + Duration(static_cast<std::int64_t>(sum / cores));
         const bool bounded = next <= response;
         response = next;
         if (bounded) break;

@@ -15,7 +15,7 @@ bool passes_gfb(std::span<const TaskModel> models, std::int64_t cores);
 /// all deadlines do, by these bounds or otherwise. Sufficient for constrained deadlines. What a task executes in a
 /// window is bounded by its arrivals and deadlines alone, so that jitter only shortens the time of the task that is
 /// looked at.
-std::vector<std::optional<std::int64_t>> global_edf_responses(std::span<const TaskModel> models, std::int64_t cores,
-                                                              Budget& budget);
+std::vector<std::optional<Duration>> global_edf_responses(std::span<const TaskModel> models, std::int64_t cores,
+                                                          Budget& budget);
 
 }  // namespace jarol::analysis

@@ -12,27 +12,27 @@ namespace {
 TaskModels with_blocking_in_wcet(TaskModels models) {
   for (TaskModel& m : models) {
     m.wcet += m.blocking;
-    m.blocking = 0;
+    m.blocking = {};
   }
   return models;
 }
 
 // Upper bounds with readers that wait for those that they follow: their responses are jitter of the readers (as
 // Tindell, Clark 1994), from none on, up to where they stay as they are. Nothing for one that none was found for.
-std::vector<std::optional<std::int64_t>> bounds_of(const System& system, const TaskModels& models, Budget& budget) {
+std::vector<std::optional<Duration>> bounds_of(const System& system, const TaskModels& models, Budget& budget) {
   constexpr int max_rounds = 100;
   TaskModels waiting = models;
   for (int round = 0; round < max_rounds; ++round) {
     auto responses = global_edf_responses(waiting, system.cores, budget);
     bool changed = false;
     for (const auto& [producer, reader] : system.follows) {
-      if (!responses[producer]) return std::vector<std::optional<std::int64_t>>(models.size());
+      if (!responses[producer]) return std::vector<std::optional<Duration>>(models.size());
       changed = changed || *responses[producer] > waiting[reader].jitter;
       waiting[reader].jitter = std::max(waiting[reader].jitter, *responses[producer]);
     }
     if (!changed) return responses;
   }
-  return std::vector<std::optional<std::int64_t>>(models.size());
+  return std::vector<std::optional<Duration>>(models.size());
 }
 
 void refuse(Result& result, const GlobalSimulation& run, Evidence evidence) {
@@ -58,7 +58,8 @@ void walk(const System& system, const TaskModels& models, Result& result, Budget
     budget.spend(run.activations * steps_of_activation);
     return run;
   };
-  const bool jitters = std::any_of(models.begin(), models.end(), [](const TaskModel& m) { return m.jitter > 0; });
+  const bool jitters =
+      std::any_of(models.begin(), models.end(), [](const TaskModel& m) { return m.jitter > Duration{}; });
   const bool exact = system.offsets_hold && !jitters && system.follows.empty();
   const GlobalSimulation latest = run_of(models, max_activations);
   if (latest.late) return refuse(result, latest, exact ? Evidence::proof : Evidence::by_run);
@@ -74,14 +75,14 @@ void walk(const System& system, const TaskModels& models, Result& result, Budget
     return;
   }
   TaskModels soonest = models;
-  for (TaskModel& m : soonest) m.jitter = 0;
+  for (TaskModel& m : soonest) m.jitter = {};
   if (const GlobalSimulation run = run_of(soonest, max_activations); run.late)
     return refuse(result, run, Evidence::by_run);
   if (system.offsets_hold) return;
   // all at once, and all due at once
   for (const bool due : {false, true}) {
     TaskModels shifted = models;
-    for (TaskModel& m : shifted) m.offset = due ? (m.period - m.deadline + m.jitter) % m.period : 0;
+    for (TaskModel& m : shifted) m.offset = due ? (m.period - m.deadline + m.jitter) % m.period : Duration{};
     if (const GlobalSimulation run = run_of(shifted, max_activations / 10); run.late && system.follows.empty())
       return refuse(result, run, Evidence::by_run);
   }

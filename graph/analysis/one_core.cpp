@@ -19,7 +19,7 @@ constexpr std::uint64_t steps_of_simulated = 10;  // that the simulation takes
 bool by_deadline(const Policy& policy) { return policy.urgency == Urgency::deadline; }
 Order order_of(const Policy& policy) { return by_deadline(policy) ? Order::by_deadline : Order::by_priority; }
 
-CoreResult undecided(std::string reason, std::vector<std::optional<std::int64_t>> responses = {}) {
+CoreResult undecided(std::string reason, std::vector<std::optional<Duration>> responses = {}) {
   CoreResult result;
   result.reason = std::move(reason);
   result.responses = std::move(responses);
@@ -27,7 +27,7 @@ CoreResult undecided(std::string reason, std::vector<std::optional<std::int64_t>
 }
 
 template <class T>
-CoreResult late_one(const T& run, Evidence evidence, std::vector<Slice> slices, std::int64_t slices_from = 0) {
+CoreResult late_one(const T& run, Evidence evidence, std::vector<Slice> slices, Duration slices_from = {}) {
   CoreResult result = undecided("a task is late when every task takes its 'wcet'");
   result.verdict = Verdict::not_schedulable;
   result.evidence = evidence;
@@ -37,11 +37,11 @@ CoreResult late_one(const T& run, Evidence evidence, std::vector<Slice> slices, 
   return result;
 }
 
-std::vector<std::optional<std::int64_t>> optional(const std::vector<std::int64_t>& responses) {
+std::vector<std::optional<Duration>> optional(const std::vector<Duration>& responses) {
   return {responses.begin(), responses.end()};
 }
 
-CoreResult on_time(std::string reason, const std::vector<std::int64_t>& responses, bool exact) {
+CoreResult on_time(std::string reason, const std::vector<Duration>& responses, bool exact) {
   CoreResult result = undecided(std::move(reason), optional(responses));
   result.verdict = Verdict::schedulable;
   result.evidence = Evidence::proof;
@@ -81,27 +81,28 @@ CoreResult check_any_phasing(std::span<const TaskModel> models, const Policy& po
   return result;
 }
 
-std::optional<std::int64_t> end_of_repetition(std::span<const TaskModel> models) {
-  std::int64_t largest_offset = 0;
+std::optional<Duration> end_of_repetition(std::span<const TaskModel> models) {
+  Duration largest_offset{};
   double activations = 0;
   for (const TaskModel& m : models) largest_offset = std::max(largest_offset, m.offset);
   const auto lcm = hyperperiod(models, max_time / 4);
   if (!lcm) return std::nullopt;
-  const std::int64_t end = largest_offset + 2 * *lcm;
-  for (const TaskModel& m : models) activations += static_cast<double>(end) / static_cast<double>(m.period);
+  const Duration end = largest_offset + 2 * *lcm;
+  for (const TaskModel& m : models)
+    activations += static_cast<double>(end.count()) / static_cast<double>(m.period.count());
   return activations <= static_cast<double>(max_simulated) ? std::optional(end) : std::nullopt;
 }
 
 bool all_at_once(std::span<const TaskModel> models) {
-  return std::all_of(models.begin(), models.end(), [](const TaskModel& m) { return m.offset == 0; });
+  return std::all_of(models.begin(), models.end(), [](const TaskModel& m) { return m.offset == Duration{}; });
 }
 
 bool has_jitter(std::span<const TaskModel> models) {
-  return std::any_of(models.begin(), models.end(), [](const TaskModel& m) { return m.jitter > 0; });
+  return std::any_of(models.begin(), models.end(), [](const TaskModel& m) { return m.jitter > Duration{}; });
 }
 
 bool has_blocking(std::span<const TaskModel> models) {
-  return std::any_of(models.begin(), models.end(), [](const TaskModel& m) { return m.blocking > 0; });
+  return std::any_of(models.begin(), models.end(), [](const TaskModel& m) { return m.blocking > Duration{}; });
 }
 
 // Where tasks are not interrupted no piece of one is what holds up another, so that what holds up one task holds up
@@ -115,7 +116,7 @@ TaskModels loads_of(const CoreTasks& tasks, const Policy& policy) {
 }
 
 TaskModels without_blocking(TaskModels models) {
-  for (TaskModel& m : models) m.blocking = 0;
+  for (TaskModel& m : models) m.blocking = {};
   return models;
 }
 
@@ -143,10 +144,10 @@ bool is_sure(std::span<const TaskModel> models, const Policy& policy, Budget& bu
 }
 
 // Where a late activation is looked for that shows why.
-std::int64_t end_of_witness(std::span<const TaskModel> models, const std::optional<Demand>& demand) {
-  std::int64_t end = 0;
+Duration end_of_witness(std::span<const TaskModel> models, const std::optional<Demand>& demand) {
+  Duration end{};
   for (const TaskModel& m : models) end = std::max(end, m.offset + 4 * m.period);
-  return std::max(end_of_repetition(models).value_or(end), demand ? demand->length : 0);
+  return std::max(end_of_repetition(models).value_or(end), demand ? demand->length : Duration{});
 }
 
 // Of a walk through all that can happen, to the first late activation or, with `whole`, beyond it.
@@ -228,7 +229,8 @@ void take_responses_of_run(std::span<const TaskModel> models, const Policy& poli
   const auto end = end_of_repetition(models);
   if (!end || has_blocking(models)) return;
   double activations = 0;
-  for (const TaskModel& m : models) activations += static_cast<double>(*end) / static_cast<double>(m.period);
+  for (const TaskModel& m : models)
+    activations += static_cast<double>(end->count()) / static_cast<double>(m.period.count());
   if (activations > static_cast<double>(max_activations)) return;
   const Simulation run = simulate_repetition(models, order_of(policy), true, 2 * max_activations);
   budget.spend(run.activations * steps_of_simulated);

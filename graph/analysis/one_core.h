@@ -20,12 +20,12 @@ struct CoreResult {
   Verdict verdict = Verdict::unknown;
   Evidence evidence = Evidence::none;
   std::string reason;
-  std::vector<std::optional<std::int64_t>> responses;  // per model; upper bounds
-  std::optional<Demand> demand;                        // why not, under EDF
-  std::optional<DeadlineMiss> late;                    // why not
-  std::vector<Slice> slices;                           // before that
-  std::int64_t slices_from = 0;                        // ns; of what ran later none is missing there
-  bool exact = false;                                  // each response is reached
+  std::vector<std::optional<Duration>> responses;  // per model; upper bounds
+  std::optional<Demand> demand;                    // why not, under EDF
+  std::optional<DeadlineMiss> late;                // why not
+  std::vector<Slice> slices;                       // before that
+  Duration slices_from{};                          // of what ran later none is missing there
+  bool exact = false;                              // each response is reached
 };
 
 /// The verdict alone; with responses and witness; or with responses that are as short as offsets and the order of equal

@@ -8,7 +8,9 @@ namespace {
 
 constexpr std::size_t max_tests = 20'000;  // of a core in the search of all assignments
 
-double use_of(const TaskModel& m) { return static_cast<double>(m.wcet) / static_cast<double>(m.period); }
+double use_of(const TaskModel& m) {
+  return static_cast<double>(m.wcet.count()) / static_cast<double>(m.period.count());
+}
 
 // Tasks that go to one core together.
 struct Together {

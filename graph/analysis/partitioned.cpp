@@ -19,8 +19,7 @@ bool goes_before(const System& s, std::size_t a, std::size_t b) {
 }
 
 // What the tests of one core know: its tasks, and who goes before whom there anyway.
-CoreTasks tasks_of(const System& system, const std::vector<std::size_t>& tasks,
-                   const std::vector<std::int64_t>& waits) {
+CoreTasks tasks_of(const System& system, const std::vector<std::size_t>& tasks, const std::vector<Duration>& waits) {
   CoreTasks core;
   std::vector<std::size_t> index(system.models.size(), tasks.size());
   for (std::size_t k = 0; k < tasks.size(); ++k) {
@@ -71,7 +70,7 @@ class Cores {
     }
   }
 
-  Result check(const std::vector<std::int64_t>& waits, Detail detail, Budget& budget, Budget& walks) const {
+  Result check(const std::vector<Duration>& waits, Detail detail, Budget& budget, Budget& walks) const {
     Result result;
     result.response.resize(system_.models.size());
     result.exact.resize(system_.models.size());
@@ -93,7 +92,7 @@ class Cores {
  private:
   Result find_waits(Budget& budget, Budget& walks) const {
     constexpr int max_rounds = 100;
-    std::vector<std::int64_t> waits(system_.models.size(), 0);
+    std::vector<Duration> waits(system_.models.size());
     for (int round = 0; round < max_rounds; ++round) {
       Result result = check(waits, Detail::tight, budget, walks);
       if (result.verdict != Verdict::schedulable) return result;
@@ -112,13 +111,13 @@ class Cores {
     return {};
   }
 
-  void add(Result& result, std::size_t c, const std::vector<std::int64_t>& waits, Detail detail, Budget& budget,
+  void add(Result& result, std::size_t c, const std::vector<Duration>& waits, Detail detail, Budget& budget,
            Budget& walks) const {
     const std::vector<std::size_t>& tasks = tasks_[c];
     CoreTasks of_core = tasks_of(system_, tasks, waits);
     if (detail == Detail::tight) {
       // who waits for several there waits for what holds up any of them
-      std::int64_t longest = 0;
+      Duration longest{};
       for (const TaskModel& m : of_core.models) longest = std::max(longest, m.blocking);
       for (TaskModel& m : of_core.models) m.blocking = longest;
     }
@@ -173,7 +172,7 @@ Result run_with_waits(const System& system, const std::vector<std::size_t>& core
   rules.preemptive = system.policy.interrupts;
   for (const bool late : {true, false}) {
     TaskModels models = system.models;
-    for (TaskModel& m : models) m.jitter = late ? m.jitter : 0;
+    for (TaskModel& m : models) m.jitter = late ? m.jitter : Duration{};
     const GlobalSimulation run =
         simulate_global(models, system.cores, std::min(max_activations, budget.left / steps_of_activation), rules);
     budget.spend(run.activations * steps_of_activation);
@@ -195,7 +194,7 @@ Result run_with_waits(const System& system, const std::vector<std::size_t>& core
 Result check_assigned(const System& system, const std::vector<std::size_t>& core, Detail detail, Budget& budget) {
   constexpr std::uint64_t max_walked = 5'000'000;
   const Cores cores(system, core);
-  Result by_itself = cores.check(std::vector<std::int64_t>(system.models.size(), 0), detail, budget, budget);
+  Result by_itself = cores.check(std::vector<Duration>(system.models.size()), detail, budget, budget);
   if (!cores.waits()) return by_itself;
   if (by_itself.verdict == Verdict::not_schedulable) {
     if (detail != Detail::verdict) cores.forget_responses_with_waits(by_itself);
@@ -218,7 +217,7 @@ Result check_assigned(const System& system, const std::vector<std::size_t>& core
 
 Result check_partitioned(const System& system, bool whole, Budget& budget) {
   constexpr std::uint64_t max_steps_to_assign = 300'000'000;
-  const std::vector<std::int64_t> none(system.models.size(), 0);
+  const std::vector<Duration> none(system.models.size());
   const auto fits = [&](const std::vector<std::size_t>& tasks, Budget& own) {
     const CoreTasks core = tasks_of(system, in_order(system, tasks), none);
     return check_core(core, system.policy, system.offsets_hold, Detail::verdict, own).verdict;

@@ -31,8 +31,8 @@ std::vector<std::size_t> producers_first(const CoreTasks& tasks) {
 
 // Does the producer arrive with every activation of the reader?
 bool is_always_there(const TaskModel& producer, const TaskModel& reader) {
-  return producer.offset <= reader.offset && reader.period % producer.period == 0 &&
-         (reader.offset - producer.offset) % producer.period == 0;
+  return producer.offset <= reader.offset && reader.period % producer.period == Duration{} &&
+         (reader.offset - producer.offset) % producer.period == Duration{};
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ ReadinessAt::ReadinessAt(const CoreTasks& tasks)
     : tasks_(tasks),
       producers_(producers_of(tasks)),
       always_(tasks.models.size()),
-      known_(tasks.models.size(), {-1, {}}) {
+      known_(tasks.models.size(), {Duration(-1), {}}) {
   for (const std::size_t task : producers_first(tasks)) {
     Readiness ready{tasks.models[task].jitter, tasks.models[task].blocking};
     const bool all = std::all_of(producers_[task].begin(), producers_[task].end(), [&](std::size_t p) {
@@ -64,13 +64,13 @@ ReadinessAt::ReadinessAt(const CoreTasks& tasks)
   }
 }
 
-Readiness ReadinessAt::operator()(std::size_t task, std::int64_t instant) {
+Readiness ReadinessAt::operator()(std::size_t task, Duration instant) {
   if (always_[task]) return *always_[task];
   if (known_[task].first == instant) return known_[task].second;
   Readiness ready{tasks_.models[task].jitter, tasks_.models[task].blocking};
   for (const std::size_t p : producers_[task]) {
     const TaskModel& m = tasks_.models[p];
-    if (instant < m.offset || (instant - m.offset) % m.period != 0) continue;
+    if (instant < m.offset || (instant - m.offset) % m.period != Duration{}) continue;
     const Readiness before = (*this)(p, instant);
     ready = {std::max(ready.jitter, before.jitter), std::max(ready.blocking, before.blocking)};
   }

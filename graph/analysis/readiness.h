@@ -12,20 +12,20 @@ TaskModels inheriting_loads(const CoreTasks& tasks);
 
 /// How late an activation can be ready, and how long held up, with those that arrive with it and that it follows.
 struct Readiness {
-  std::int64_t jitter = 0, blocking = 0;
+  Duration jitter{}, blocking{};
 };
 
 /// Of the activation of a task that arrives at an instant.
 class ReadinessAt {
  public:
   explicit ReadinessAt(const CoreTasks& tasks);
-  Readiness operator()(std::size_t task, std::int64_t instant);
+  Readiness operator()(std::size_t task, Duration instant);
 
  private:
   const CoreTasks& tasks_;
   std::vector<std::vector<std::size_t>> producers_;
-  std::vector<std::optional<Readiness>> always_;           // per task: the same at each of its instants
-  std::vector<std::pair<std::int64_t, Readiness>> known_;  // per task: the instant it was last asked for, and what
+  std::vector<std::optional<Readiness>> always_;       // per task: the same at each of its instants
+  std::vector<std::pair<Duration, Readiness>> known_;  // per task: the instant it was last asked for, and what
 };
 
 }  // namespace jarol::analysis

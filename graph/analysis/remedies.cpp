@@ -258,7 +258,7 @@ class Search {
     for (const WcetCut& cut : wcet_cuts(system_of(graph()), budget_)) {
       if (found_.size() >= max_remedies || ++count > 2) return;
       const Task& task = graph().tasks[cut.task];
-      const std::string wcet = duration_text(Duration(cut.wcet));
+      const std::string wcet = duration_text(cut.wcet);
       add({"a 'wcet' of " + wcet + " for '" + task.name + "', which has " + duration_text(*task.wcet),
            {"tasks." + task.name + ".wcet=" + wcet}});
     }

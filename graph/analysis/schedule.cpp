@@ -33,7 +33,7 @@ Schedule::Schedule(System system, std::vector<std::size_t> core, std::vector<boo
 }
 
 void Schedule::begin() {
-  now_ = 0;
+  now_ = {};
   releases_ = {};
   ready_.clear();
   tasks_.assign(system_.models.size(), {});
@@ -61,13 +61,13 @@ const Fate& Schedule::fate(std::size_t task, std::int64_t activation) {
 void Schedule::step() {
   release_due();
   choose();
-  std::int64_t next = releases_.top().first;
+  Duration next = releases_.top().first;
   for (const std::size_t i : running_) next = std::min(next, now_ + ready_[i].left);
   for (const std::size_t i : running_) ready_[i].left -= next - now_;
   now_ = next;
   for (std::size_t k = running_.size(); k-- > 0;) {
     const Job job = ready_[running_[k]];
-    if (job.left > 0) continue;
+    if (job.left > Duration{}) continue;
     ready_.erase(ready_.begin() + static_cast<std::ptrdiff_t>(running_[k]));
     end(job);
   }
@@ -96,7 +96,7 @@ void Schedule::release(std::size_t task) {
     of.fates.push_back({Fate::Kind::in_time, std::nullopt});
     return;
   }
-  std::int64_t urgency = 0;
+  Duration urgency{};
   switch (system_.policy.urgency) {
     case Urgency::turn: urgency = now_; break;
     case Urgency::priority: break;
@@ -114,8 +114,8 @@ void Schedule::release(std::size_t task) {
 bool Schedule::waits(const Job& job) const {
   const std::vector<std::size_t>& producers = tasks_[job.task].producers;
   return std::any_of(producers.begin(), producers.end(), [&](std::size_t p) {
-    const std::int64_t since = job.release - system_.models[p].offset, period = system_.models[p].period;
-    return since >= 0 && since % period == 0 && tasks_[p].runs == since / period;
+    const Duration since = job.release - system_.models[p].offset, period = system_.models[p].period;
+    return since >= Duration{} && since % period == Duration{} && tasks_[p].runs == since / period;
   });
 }
 
@@ -151,7 +151,7 @@ void Schedule::end(const Job& job) {
   of.runs.reset();
   // a release that was left out stands for the one to be skipped
   if (std::exchange(of.known_late, false)) return;
-  const std::int64_t response = now_ - job.release;
+  const Duration response = now_ - job.release;
   const bool late = response > system_.models[job.task].deadline;
   of.skips_next = late && skips_[job.task];
   of.fates.push_back({late ? Fate::Kind::late : Fate::Kind::in_time, response});

@@ -15,13 +15,13 @@ namespace jarol::analysis {
 /// What became of an activation.
 struct Fate {
   enum class Kind { in_time, late, left_out } kind = Kind::in_time;  // left out: one before it still ran
-  std::optional<std::int64_t> response;  // ns from release to end; none: it had not ended a period after, or never ran
+  std::optional<Duration> response;  // from release to end; none: it had not ended a period after, or never ran
 };
 
 class Schedule {
  public:
-  /// Of an activation, in ns, without overheads of the platform.
-  using ExecutionTime = std::function<std::int64_t(std::size_t task, std::int64_t activation)>;
+  /// Of an activation, without overheads of the platform.
+  using ExecutionTime = std::function<Duration(std::size_t task, std::int64_t activation)>;
 
   /// A system with a core for each task, unless the policy has tasks on any. Releases are at the offsets, without
   /// jitter and blocking. `skips`, per task: the release after one that was late is left out, and takes no time.
@@ -33,12 +33,12 @@ class Schedule {
 
  private:
   struct Job {
-    std::int64_t urgency = 0;  // less first
-    std::size_t order = 0;     // of equals
+    Duration urgency{};     // less first
+    std::size_t order = 0;  // of equals
     std::size_t task = 0;
     std::int64_t activation = 0;
-    std::int64_t release = 0;
-    std::int64_t left = 0;
+    Duration release{};
+    Duration left{};
     bool started = false;
   };
   struct OfTask {
@@ -64,8 +64,8 @@ class Schedule {
   const std::vector<bool> skips_;
   const ExecutionTime execution_;
   std::vector<std::size_t> order_;  // per task, of equals
-  std::int64_t now_ = 0;
-  using Release = std::pair<std::int64_t, std::size_t>;  // when, which task
+  Duration now_{};
+  using Release = std::pair<Duration, std::size_t>;  // when, which task
   std::priority_queue<Release, std::vector<Release>, std::greater<>> releases_;
   std::vector<OfTask> tasks_;
   std::vector<Job> ready_;            // most urgent first

@@ -9,10 +9,10 @@ namespace {
 bool holds(const System& system, Budget& budget) { return verdict_of(system, budget) == Verdict::schedulable; }
 
 // The largest x in [low, high) with good(x), where good is monotone and good(low).
-template <class Good>
-std::int64_t largest(std::int64_t low, std::int64_t high, const Good& good) {
-  while (high - low > 1) {
-    const std::int64_t middle = low + (high - low) / 2;
+template <class T, class Good>
+T largest(T low, T high, const Good& good) {
+  while (high - low > T{1}) {
+    const T middle = low + (high - low) / 2;
     (good(middle) ? low : high) = middle;
   }
   return low;
@@ -21,33 +21,34 @@ std::int64_t largest(std::int64_t low, std::int64_t high, const Good& good) {
 System scaled(const System& system, std::int64_t millionths) {
   System changed = system;
   for (TaskModel& m : changed.models)
-    m.wcet = static_cast<std::int64_t>((static_cast<Wide>(m.wcet - m.overhead) * millionths + 999'999) / 1'000'000) +
-             m.overhead;
+    m.wcet = m.overhead + Duration(static_cast<std::int64_t>(
+                              (static_cast<Wide>((m.wcet - m.overhead).count()) * millionths + 999'999) / 1'000'000));
   return changed;
 }
 
-std::optional<std::int64_t> max_wcet(const System& system, std::size_t task, Budget& budget) {
+std::optional<Duration> max_wcet(const System& system, std::size_t task, Budget& budget) {
   System changed = system;
-  const auto good = [&](std::int64_t wcet) {
+  const auto good = [&](Duration wcet) {
     changed.models[task].wcet = wcet;
     return holds(changed, budget);
   };
-  const std::int64_t overhead = system.models[task].overhead;
-  if (!good(1 + overhead)) return std::nullopt;
-  return largest(1 + overhead, system.models[task].deadline + overhead + 1, good) - overhead;
+  const Duration overhead = system.models[task].overhead;
+  constexpr Duration step(1);
+  if (!good(overhead + step)) return std::nullopt;
+  return largest(overhead + step, system.models[task].deadline + overhead + step, good) - overhead;
 }
 
-std::optional<std::int64_t> min_deadline(const System& system, std::size_t task, Budget& budget) {
+std::optional<Duration> min_deadline(const System& system, std::size_t task, Budget& budget) {
   // negated: the search looks for the largest
-  const auto good = [&](std::int64_t negative) { return holds(with_deadline(system, task, -negative), budget); };
-  const std::int64_t now = system.models[task].deadline;
+  const auto good = [&](Duration negative) { return holds(with_deadline(system, task, -negative), budget); };
+  const Duration now = system.models[task].deadline;
   if (!good(-now)) return std::nullopt;
-  return -largest(-now, 0, good);
+  return -largest(-now, Duration{}, good);
 }
 
 }  // namespace
 
-System with_deadline(const System& system, std::size_t task, std::int64_t deadline) {
+System with_deadline(const System& system, std::size_t task, Duration deadline) {
   System changed = system;
   changed.models[task].deadline = deadline;
   // those that it reads have to end by then, too, and those that these read
@@ -69,8 +70,7 @@ void confirm_deadlines(const Graph& graph, Sensitivity& sensitivity, Budget& bud
     if (!sensitivity.min_deadline[i]) continue;
     const System shorter = with_deadline(system, i, *sensitivity.min_deadline[i]);
     Graph changed = graph;
-    for (std::size_t k = 0; k < changed.tasks.size(); ++k)
-      changed.tasks[k].deadline = Duration(shorter.models[k].deadline);
+    for (std::size_t k = 0; k < changed.tasks.size(); ++k) changed.tasks[k].deadline = shorter.models[k].deadline;
     if (!holds(system_of(changed), budget)) sensitivity.min_deadline[i].reset();
   }
 }
@@ -80,7 +80,7 @@ std::optional<Sensitivity> sensitivity_of(const System& system, bool per_task, B
   result.max_wcet.resize(system.models.size());
   result.min_deadline.resize(system.models.size());
   const bool any =
-      std::any_of(system.models.begin(), system.models.end(), [](const TaskModel& m) { return m.wcet > 0; });
+      std::any_of(system.models.begin(), system.models.end(), [](const TaskModel& m) { return m.wcet > Duration{}; });
   if (any && holds(scaled(system, 1), budget)) {
     std::int64_t high = 1'000'000;
     while (high < 1'000'000'000'000 && holds(scaled(system, high), budget)) high *= 2;
@@ -95,8 +95,8 @@ std::optional<Sensitivity> sensitivity_of(const System& system, bool per_task, B
     result.max_wcet[i] = max_wcet(system, i, budget);
     result.min_deadline[i] = min_deadline(system, i, budget);
     if (!result.max_wcet[i] || system.models[i].wcet == system.models[i].overhead) continue;
-    const double room = static_cast<double>(*result.max_wcet[i]) /
-                        static_cast<double>(system.models[i].wcet - system.models[i].overhead);
+    const double room = static_cast<double>(result.max_wcet[i]->count()) /
+                        static_cast<double>((system.models[i].wcet - system.models[i].overhead).count());
     if (result.binding && room >= min) continue;
     min = room;
     result.binding = i;
@@ -109,10 +109,10 @@ std::vector<WcetCut> wcet_cuts(const System& system, Budget& budget) {
   if (system.models.size() > 100) return {};
   std::vector<std::pair<double, WcetCut>> cuts;
   for (std::size_t i = 0; i < system.models.size(); ++i) {
-    const std::int64_t now = system.models[i].wcet - system.models[i].overhead;
+    const Duration now = system.models[i].wcet - system.models[i].overhead;
     const auto wcet = max_wcet(system, i, budget);
     if (!wcet || budget.spent() || *wcet >= now) continue;
-    cuts.push_back({1 - static_cast<double>(*wcet) / static_cast<double>(now), {i, *wcet}});
+    cuts.push_back({1 - static_cast<double>(wcet->count()) / static_cast<double>(now.count()), {i, *wcet}});
   }
   std::stable_sort(cuts.begin(), cuts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<WcetCut> sorted;

@@ -11,13 +11,13 @@ namespace {
 constexpr std::size_t max_slices_of_cores = 400;
 
 struct Job {
-  std::int64_t urgency = 0;  // less first
-  std::size_t order = 0;     // of equals
+  Duration urgency{};     // less first
+  std::size_t order = 0;  // of equals
   std::size_t task = 0;
   std::int64_t activation = 0;
-  std::int64_t arrival = 0;
-  std::int64_t deadline = 0;
-  std::int64_t left = 0;
+  Duration arrival{};
+  Duration deadline{};
+  Duration left{};
   bool started = false;
   std::size_t slice = 0;  // the number of its newest one, from 1 on; 0: none
 };
@@ -30,7 +30,7 @@ class Simulator {
  public:
   Simulator(std::span<const TaskModel> models, std::int64_t cores, const RunRules& rules)
       : loads_(models), cores_(static_cast<std::size_t>(cores)), rules_(rules), producers_(models.size()) {
-    result_.responses.resize(models.size(), 0);
+    result_.responses.resize(models.size());
     for (std::size_t i = 0; i < models.size(); ++i) arrivals_.emplace(models[i].offset + models[i].jitter, i);
     for (const auto& [producer, reader] : rules.follows) producers_[reader].push_back(producer);
     released_.resize(models.size(), 0);
@@ -38,25 +38,25 @@ class Simulator {
   }
 
   // False if an activation is late, or there are too many.
-  bool run_until(std::int64_t end, std::uint64_t max_activations) {
+  bool run_until(Duration end, std::uint64_t max_activations) {
     while (now_ < end) {
       if (result_.activations > max_activations) return false;
       arrive();
       choose();
-      std::int64_t next = std::min(end, arrivals_.top().first);
+      Duration next = std::min(end, arrivals_.top().first);
       for (const std::size_t i : running_) next = std::min(next, now_ + ready_[i].left);
       for (const std::size_t i : running_) advance(ready_[i], next);
       now_ = next;
       for (std::size_t k = running_.size(); k-- > 0;)
-        if (ready_[running_[k]].left == 0 && !close(running_[k])) return false;
+        if (ready_[running_[k]].left == Duration{} && !close(running_[k])) return false;
     }
     return true;
   }
 
   // Work that is left of each task: with deadlines within periods and nothing late, all that the future depends on.
   // Nothing if something is late already and has yet to end.
-  std::optional<std::vector<std::int64_t>> left() const {
-    std::vector<std::int64_t> sum(loads_.size(), 0);
+  std::optional<std::vector<Duration>> left() const {
+    std::vector<Duration> sum(loads_.size());
     for (const Job& job : ready_) {
       if (job.deadline <= now_) return std::nullopt;
       sum[job.task] += job.left;
@@ -71,10 +71,11 @@ class Simulator {
     while (arrivals_.top().first <= now_) {
       const std::size_t i = arrivals_.top().second;
       arrivals_.pop();
-      const std::int64_t arrival = now_ - loads_[i].jitter;
-      const std::int64_t deadline = arrival + loads_[i].deadline;
+      const Duration arrival = now_ - loads_[i].jitter;
+      const Duration deadline = arrival + loads_[i].deadline;
       const std::size_t order = rules_.order.empty() ? i : rules_.order[i];
-      const Job job{rules_.by_order ? 0 : deadline, order, i, released_[i]++, arrival, deadline, loads_[i].wcet, false};
+      const Job job{
+          rules_.by_order ? Duration{} : deadline, order, i, released_[i]++, arrival, deadline, loads_[i].wcet, false};
       ready_.insert(std::upper_bound(ready_.begin(), ready_.end(), job, more_urgent), job);
       arrivals_.emplace(now_ + loads_[i].period, i);
       ++result_.activations;
@@ -84,8 +85,8 @@ class Simulator {
   // Has an activation that it follows yet to end?
   bool waits(const Job& job) const {
     return std::any_of(producers_[job.task].begin(), producers_[job.task].end(), [&](std::size_t p) {
-      const std::int64_t since = job.arrival - loads_[p].offset;
-      return since >= 0 && since % loads_[p].period == 0 && ended_[p] <= since / loads_[p].period;
+      const Duration since = job.arrival - loads_[p].offset;
+      return since >= Duration{} && since % loads_[p].period == Duration{} && ended_[p] <= since / loads_[p].period;
     });
   }
 
@@ -110,7 +111,7 @@ class Simulator {
     std::sort(running_.begin(), running_.end());
   }
 
-  void advance(Job& job, std::int64_t until) {
+  void advance(Job& job, Duration until) {
     job.left -= until - now_;
     std::vector<Slice>& slices = result_.slices;
     if (job.slice > dropped_ && slices[job.slice - dropped_ - 1].end == now_) {
@@ -138,8 +139,8 @@ class Simulator {
   std::span<const TaskModel> loads_;
   std::size_t cores_;
   const RunRules& rules_;
-  std::int64_t now_ = 0;
-  using Arrival = std::pair<std::int64_t, std::size_t>;  // when, which task
+  Duration now_{};
+  using Arrival = std::pair<Duration, std::size_t>;  // when, which task
   std::priority_queue<Arrival, std::vector<Arrival>, std::greater<>> arrivals_;
   std::vector<std::vector<std::size_t>> producers_;
   std::vector<std::int64_t> released_, ended_;  // per task, how many
@@ -156,7 +157,7 @@ GlobalSimulation simulate_global(std::span<const TaskModel> models, std::int64_t
                                  const RunRules& rules) {
   Simulator simulator(models, cores, rules);
   const auto lcm = hyperperiod(models, max_time / 4);
-  std::int64_t end = 0;
+  Duration end{};
   for (const TaskModel& m : models) end = std::max(end, m.offset + m.jitter);
   bool on = !models.empty() && simulator.run_until(end, max_activations);
   auto before = simulator.left();
@@ -171,7 +172,7 @@ GlobalSimulation simulate_global(std::span<const TaskModel> models, std::int64_t
   return std::move(simulator.result());
 }
 
-std::vector<Slice> slices_before(std::int64_t until, std::span<const TaskModel> models, std::int64_t cores,
+std::vector<Slice> slices_before(Duration until, std::span<const TaskModel> models, std::int64_t cores,
                                  const RunRules& rules) {
   if (models.empty()) return {};
   Simulator simulator(models, cores, rules);

@@ -10,9 +10,9 @@ struct GlobalSimulation {
   bool repeats = false;  // nothing is late, and the last hyperperiod left all as the one before it
   std::uint64_t activations = 0;
   std::optional<DeadlineMiss> late;
-  std::vector<std::int64_t> responses;  // per task, the longest of those that ended
-  std::vector<Slice> slices;            // the last ones before the late activation ended
-  std::int64_t slices_from = 0;         // ns; of what ran later none is missing there
+  std::vector<Duration> responses;  // per task, the longest of those that ended
+  std::vector<Slice> slices;        // the last ones before the late activation ended
+  Duration slices_from{};           // of what ran later none is missing there
 };
 
 /// What runs where and before what; global EDF without any.
@@ -31,7 +31,7 @@ GlobalSimulation simulate_global(std::span<const TaskModel> models, std::int64_t
                                  const RunRules& rules = {});
 
 /// The last pieces that ran before `until` or the first late activation, at least 400 of them.
-std::vector<Slice> slices_before(std::int64_t until, std::span<const TaskModel> models, std::int64_t cores,
+std::vector<Slice> slices_before(Duration until, std::span<const TaskModel> models, std::int64_t cores,
                                  const RunRules& rules);
 
 }  // namespace jarol::analysis

@@ -19,10 +19,9 @@ System system_of(const Graph& graph) {
     const Task& t = graph.tasks[i];
     // more than the longest deadline that there is need not be told apart
     const Wide handed_on = static_cast<Wide>(graph.platform.copy.count()) * bytes[i] + graph.platform.dispatch.count();
-    const std::int64_t overhead =
-        t.wcet ? static_cast<std::int64_t>(std::min<Wide>(handed_on, longest_duration.count())) : 0;
-    system.models.push_back({t.wcet.value_or(Duration{}).count() + overhead, t.period.count(), t.deadline.count(),
-                             t.offset.count(), t.jitter.count(), t.blocking.count(), overhead});
+    const Duration overhead = t.wcet ? std::min(saturated(handed_on), longest_duration) : Duration{};
+    system.models.push_back(
+        {t.wcet.value_or(Duration{}) + overhead, t.period, t.deadline, t.offset, t.jitter, t.blocking, overhead});
     system.priority.push_back(t.priority);
     system.core.push_back(t.core);
   }

@@ -1,4 +1,4 @@
-// Tasks as the analysis of one core sees them: plain numbers, in ns.
+// Tasks as the analysis of one core sees them.
 #pragma once
 
 #include <algorithm>
@@ -9,26 +9,28 @@
 #include <span>
 #include <vector>
 
+#include "graph/language/duration.h"
+
 namespace jarol::analysis {
 
 __extension__ using Wide = __int128;
 
-/// ns that no instant is beyond.
-inline constexpr std::int64_t max_time = std::int64_t{1} << 60;
+/// No instant is beyond it.
+inline constexpr Duration max_time{std::int64_t{1} << 60};
 
 struct TaskModel {
-  std::int64_t wcet = 0;
-  std::int64_t period = 1;
-  std::int64_t deadline = 1;  // relative to the arrival
-  std::int64_t offset = 0;
-  std::int64_t jitter = 0;    // the release follows the arrival by at most so much
-  std::int64_t blocking = 0;  // by what can't be preempted, once an activation
-  std::int64_t overhead = 0;  // the part of the WCET that is the platform's
+  Duration wcet{};
+  Duration period{1};
+  Duration deadline{1};  // relative to the arrival
+  Duration offset{};
+  Duration jitter{};    // the release follows the arrival by at most so much
+  Duration blocking{};  // by what can't be preempted, once an activation
+  Duration overhead{};  // the part of the WCET that is the platform's
 };
 
-/// A sum of times as one time: the longest that there is, where it is longer than that.
-inline std::int64_t saturated(Wide sum) {
-  return static_cast<std::int64_t>(std::min<Wide>(sum, std::numeric_limits<std::int64_t>::max()));
+/// A sum of times in ns as one time: the longest that there is, where it is longer than that.
+inline Duration saturated(Wide sum) {
+  return Duration(static_cast<std::int64_t>(std::min<Wide>(sum, Duration::max().count())));
 }
 
 /// Of one core; most urgent first where priorities count.
@@ -41,7 +43,7 @@ std::optional<std::strong_ordering> compare_utilisation(std::span<const TaskMode
 double utilisation(std::span<const TaskModel> models);
 
 /// Least common multiple of the periods, or nothing beyond `max`.
-std::optional<std::int64_t> hyperperiod(std::span<const TaskModel> models, std::int64_t max);
+std::optional<Duration> hyperperiod(std::span<const TaskModel> models, Duration max);
 
 /// How much work may still go into an answer, in steps of some nanoseconds, so that one is given up after the same work
 /// on every machine. Unlimited unless stated.

@@ -50,7 +50,7 @@ bool is_due_meanwhile(const Graph& graph) {
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     const Task& task = graph.tasks[i];
     if (!task.wcet || !result.response[i]) continue;
-    const Duration response(*result.response[i]);
+    const Duration response = *result.response[i];
     if (std::any_of(graph.communicators.begin(), graph.communicators.end(), [&](const Communicator& c) {
           return min_distance(task.period, task.offset, c.period, c.offset) < response;
         }))

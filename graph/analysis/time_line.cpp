@@ -11,18 +11,18 @@ namespace {
 
 void measure(const TaskModels& models, const TimeLineLength& length, TimeLine& line) {
   double per_ns = 0;
-  std::int64_t offsets = 0;
+  Duration offsets{};
   for (const TaskModel& m : models) {
-    per_ns += 1 / static_cast<double>(m.period);
+    per_ns += 1 / static_cast<double>(m.period.count());
     offsets = std::max(offsets, m.offset);
   }
-  const std::int64_t round = hyperperiod(models, max_time / 8).value_or(max_time / 8);
-  const bool twice = length.until_it_repeats && offsets > 0;
-  const std::int64_t whole = offsets + (twice ? 2 : 1) * round;
+  const Duration round = hyperperiod(models, max_time / 8).value_or(max_time / 8);
+  const bool twice = length.until_it_repeats && offsets > Duration{};
+  const Duration whole = offsets + (twice ? 2 : 1) * round;
   const double filled = length.max_activations / per_ns;
-  const bool fits = static_cast<double>(whole) <= filled;
-  line.until = fits ? whole : static_cast<std::int64_t>(filled);
-  if (fits && (offsets == 0 || twice)) line.round = round;
+  const bool fits = static_cast<double>(whole.count()) <= filled;
+  line.until = fits ? whole : Duration(static_cast<std::int64_t>(filled));
+  if (fits && (offsets == Duration{} || twice)) line.round = round;
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 namespace jarol::analysis {
 
 struct TimeLine {
-  std::int64_t until = 0;             // ns; from 0 on
-  std::optional<std::int64_t> round;  // ns; after which all repeats; none: not all of it is known
+  Duration until{};               // from 0 on
+  std::optional<Duration> round;  // after which all repeats; none: not all of it is known
   std::vector<Slice> slices;
 };
 

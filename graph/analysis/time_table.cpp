@@ -14,7 +14,7 @@ constexpr std::size_t max_validated = 50'000;
 constexpr std::uint64_t steps_of_walked = 10, max_after_late = 200'000;
 
 struct TableJob {
-  std::int64_t arrival = 0;
+  Duration arrival{};
   std::size_t turn = 0;  // among those that arrive at one instant
   std::size_t task = 0;
   std::int64_t activation = 0;
@@ -44,18 +44,18 @@ class TableWalk {
       : system_(system),
         core_(core),
         producers_(system.models.size()),
-        arrived_(system.models.size(), -1),
-        ended_(system.models.size(), 0),
-        free_(static_cast<std::size_t>(system.cores), 0),
+        arrived_(system.models.size(), Duration(-1)),
+        ended_(system.models.size()),
+        free_(static_cast<std::size_t>(system.cores)),
         jobs_(&later) {
-    responses.resize(system.models.size(), 0);
+    responses.resize(system.models.size());
     for (const auto& [producer, reader] : system.follows)
       if (core[producer] != core[reader]) producers_[reader].push_back(producer);
     for (std::size_t i = 0; i < system.models.size(); ++i) jobs_.push({system.models[i].offset, system.turn[i], i, 0});
   }
 
   // All that arrive before `end`; false when one is late for the first time or there are more than `max`.
-  bool run_until(std::int64_t end, std::uint64_t max) {
+  bool run_until(Duration end, std::uint64_t max) {
     const bool on_time = !late;
     while (!jobs_.empty() && jobs_.top().arrival < end) {
       if (activations >= max) return false;
@@ -67,29 +67,29 @@ class TableWalk {
   }
 
   // How much longer than that instant each core has to do.
-  std::vector<std::int64_t> backlog(std::int64_t instant) const {
-    std::vector<std::int64_t> left;
-    for (const std::int64_t f : free_) left.push_back(std::max<std::int64_t>(0, f - instant));
+  std::vector<Duration> backlog(Duration instant) const {
+    std::vector<Duration> left;
+    for (const Duration f : free_) left.push_back(std::max(Duration{}, f - instant));
     return left;
   }
 
   std::uint64_t activations = 0;
   std::optional<DeadlineMiss> late;
-  std::vector<std::int64_t> responses;
+  std::vector<Duration> responses;
   std::vector<Slice> slices;  // all, as far as they are to be validated
   std::vector<Slice> recent;  // those after
-  std::int64_t slices_from = 0;
+  Duration slices_from{};
 
  private:
   void run_next() {
     TableJob job = jobs_.top();
     jobs_.pop();
     const TaskModel& model = system_.models[job.task];
-    std::int64_t& free = free_[core_[job.task]];
-    std::int64_t start = std::max(free, job.arrival + model.jitter);
+    Duration& free = free_[core_[job.task]];
+    Duration start = std::max(free, job.arrival + model.jitter);
     for (const std::size_t p : producers_[job.task])
       if (arrived_[p] == job.arrival) start = std::max(start, ended_[p]);
-    const std::int64_t finish = start + model.blocking + model.wcet;
+    const Duration finish = start + model.blocking + model.wcet;
     free = ended_[job.task] = finish;
     latest_ = std::max(latest_, finish);
     arrived_[job.task] = job.arrival;
@@ -106,8 +106,8 @@ class TableWalk {
   const System& system_;
   const std::vector<std::size_t>& core_;
   std::vector<std::vector<std::size_t>> producers_;  // on other cores
-  std::vector<std::int64_t> arrived_, ended_, free_;
-  std::int64_t latest_ = 0;
+  std::vector<Duration> arrived_, ended_, free_;
+  Duration latest_{};
   std::priority_queue<TableJob, std::vector<TableJob>, decltype(&later)> jobs_;
 };
 
@@ -121,19 +121,20 @@ CoreResult result_of(Verdict verdict, Evidence evidence, std::string reason, std
 }
 
 // Activations of so many repetitions.
-double activations_of(const System& system, std::int64_t time) {
+double activations_of(const System& system, Duration time) {
   double count = 0;
-  for (const TaskModel& m : system.models) count += static_cast<double>(time) / static_cast<double>(m.period);
+  for (const TaskModel& m : system.models)
+    count += static_cast<double>(time.count()) / static_cast<double>(m.period.count());
   return count;
 }
 
 // The walk up to the repetition, within `max` activations; the reason stays empty where that ended it. `whole`: on
 // after the first late one, as far as that is not far.
-CoreResult walk(const System& system, const std::vector<std::size_t>& core, std::optional<std::int64_t> lcm, bool whole,
+CoreResult walk(const System& system, const std::vector<std::size_t>& core, std::optional<Duration> lcm, bool whole,
                 Budget& budget, std::uint64_t max) {
   TableWalk table(system, core);
   CoreResult result = result_of(Verdict::unknown, Evidence::none, "", system.models.size());
-  std::int64_t end = 0;
+  Duration end{};
   for (const TaskModel& m : system.models) end = std::max(end, m.offset);
   const auto run = [&] {
     if (table.run_until(end, max)) return true;
@@ -143,13 +144,13 @@ CoreResult walk(const System& system, const std::vector<std::size_t>& core, std:
   };
   const std::int64_t repetitions = system.cores + 2;
   bool on = run(), repeats = false, grows = false;
-  std::vector<std::int64_t> before = table.backlog(end);
+  std::vector<Duration> before = table.backlog(end);
   for (std::int64_t k = 0; on && !repeats; ++k) {
     if (lcm && end > max_time - *lcm) break;
     end = lcm ? end + *lcm : max_time;
     on = run();
     if (!on || !lcm) break;
-    std::vector<std::int64_t> now = table.backlog(end);
+    std::vector<Duration> now = table.backlog(end);
     repeats = now == before;
     if (k >= repetitions && !repeats && !grows) {
       grows = true;

@@ -7,7 +7,7 @@ namespace jarol::analysis {
 
 bool more_urgent(const System& s, std::size_t a, std::size_t b) {
   const auto key = [&](std::size_t i) {
-    return std::tuple(!s.priority[i].has_value(), s.priority[i].value_or(s.models[i].deadline), s.rank[i]);
+    return std::tuple(!s.priority[i].has_value(), s.priority[i].value_or(s.models[i].deadline.count()), s.rank[i]);
   };
   return key(a) < key(b);
 }

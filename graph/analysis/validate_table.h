@@ -12,6 +12,6 @@ namespace jarol::analysis {
 /// activation stands there once and whole, on its core alone, within its window, after those that it follows; and at
 /// the end each core has as much left to do as `repetition` before, so that the table goes on as it is.
 std::string fault_of_table(const System& system, const std::vector<std::size_t>& core, std::vector<Slice> slices,
-                           std::int64_t end, std::int64_t repetition);
+                           Duration end, Duration repetition);
 
 }  // namespace jarol::analysis

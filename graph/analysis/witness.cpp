@@ -13,7 +13,7 @@ GlobalSimulation run_with_readers(const CoreTasks& tasks, Order order, bool pree
   std::vector<std::pair<std::size_t, std::size_t>> follows = tasks.follows;
   follows.insert(follows.end(), tasks.upward.begin(), tasks.upward.end());
   TaskModels models = tasks.models;
-  for (TaskModel& m : models) m.jitter = 0;
+  for (TaskModel& m : models) m.jitter = {};
   const std::vector<std::size_t> core(models.size(), 0);
   const RunRules rules{
       .follows = follows, .core = core, .by_order = order == Order::by_priority, .preemptive = preemptive};
@@ -30,7 +30,7 @@ void take_late(T run, CoreResult& result) {
 
 }  // namespace
 
-void add_witness(const CoreTasks& tasks, Order order, bool preemptive, std::int64_t until, CoreResult& result) {
+void add_witness(const CoreTasks& tasks, Order order, bool preemptive, Duration until, CoreResult& result) {
   constexpr std::uint64_t max_activations = 1'000'000;
   if (!tasks.upward.empty()) return take_late(run_with_readers(tasks, order, preemptive), result);
   take_late(simulate(tasks.models, order, preemptive, until, max_activations), result);

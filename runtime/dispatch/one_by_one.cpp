@@ -50,7 +50,7 @@ std::optional<BadActivation> find_miss(analysis::Schedule& schedule, std::uint32
     case analysis::Fate::Kind::late:
       missed.outcome = Outcome::late;
       missed.ran = false;
-      if (fate.response) missed.ended_after = Duration(*fate.response);
+      if (fate.response) missed.ended_after = *fate.response;
       break;
   }
   return missed;

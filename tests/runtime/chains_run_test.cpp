@@ -80,9 +80,9 @@ TEST_SUITE("runtime/chains_run") {
       CAPTURE(first);
       analysis::ChainLatency analysed;
       const Measured m = measure(periods, chain.second, analysed);
-      CHECK(m.max_reaction == analysed.max_reaction);
-      CHECK(m.min_reaction == analysed.min_reaction);
-      CHECK(m.max_age == analysed.max_age);
+      CHECK(Duration(m.max_reaction) == analysed.max_reaction);
+      CHECK(Duration(m.min_reaction) == analysed.min_reaction);
+      CHECK(Duration(m.max_age) == analysed.max_age);
     }
   }
 }

@@ -15,8 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double seconds_of(std::int64_t nanoseconds) { return seconds(Duration(nanoseconds)); }
-
 const char* kind_of(const Type& type) {
   switch (type.kind) {
     case Kind::boolean: return "bool";
@@ -79,9 +77,9 @@ Json schedule_json(const Graph& graph, const analysis::Result& result) {
       analysis::time_line_of(analysis::system_of(graph), result, {.until_it_repeats = true, .max_activations = 3000});
   auto slices = Json::array();
   for (const analysis::Slice& slice : line.slices)
-    slices.push_back({slice.task, seconds_of(slice.begin), seconds_of(slice.end)});
-  Json json{{"until", seconds_of(line.until)}, {"slices", std::move(slices)}};
-  if (line.round) json["round"] = seconds_of(*line.round);
+    slices.push_back({slice.task, seconds(slice.begin), seconds(slice.end)});
+  Json json{{"until", seconds(line.until)}, {"slices", std::move(slices)}};
+  if (line.round) json["round"] = seconds(*line.round);
   return json;
 }
 
@@ -93,7 +91,7 @@ void describe_tasks(const Graph& graph, Json& to) {
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     Json json = task_json(graph.tasks[i]);
     if (result.response.size() > i && result.response[i])
-      json["slack"] = seconds(graph.tasks[i].deadline - Duration(*result.response[i]));
+      json["slack"] = seconds(graph.tasks[i].deadline - *result.response[i]);
     if (result.core.size() > i && result.core[i]) json["core"] = *result.core[i];
     tasks.push_back(std::move(json));
   }

@@ -58,7 +58,10 @@ System timed_system(const TimedSet& set, const Policy& policy, bool offsets_hold
   system.policy = policy;
   system.offsets_hold = offsets_hold;
   for (std::size_t i = 0; i < set.size(); ++i) {
-    system.models.push_back({set.wcet[i], set.period[i], set.deadline[i], offsets_hold ? set.offset[i] : 0, 0, 0, 0});
+    system.models.push_back({.wcet = Duration(set.wcet[i]),
+                             .period = Duration(set.period[i]),
+                             .deadline = Duration(set.deadline[i]),
+                             .offset = Duration(offsets_hold ? set.offset[i] : 0)});
     system.rank.push_back(i);
     system.turn.push_back(i);
   }
@@ -168,8 +171,8 @@ TEST_SUITE("graph/analysis/brute_force") {
         for (std::size_t i = 0; i < set.size(); ++i) {
           if (!result.response[i]) continue;
           // ties go against the task in the analysis, by order in the trial
-          REQUIRE(*result.response[i] >= (*truth)[i]);
-          if (policy == policies::fixed_priority) REQUIRE(*result.response[i] == (*truth)[i]);
+          REQUIRE(*result.response[i] >= Duration((*truth)[i]));
+          if (policy == policies::fixed_priority) REQUIRE(*result.response[i] == Duration((*truth)[i]));
         }
       }
     }
@@ -204,7 +207,7 @@ TEST_SUITE("graph/analysis/brute_force") {
         REQUIRE(truth);
         if (seed % 20 == 0) REQUIRE(!some_shorter_execution_misses(set, policy));
         if (is_preemptive(policy) || policy == policies::table)
-          for (std::size_t i = 0; i < set.size(); ++i) REQUIRE(*result.response[i] >= (*truth)[i]);
+          for (std::size_t i = 0; i < set.size(); ++i) REQUIRE(*result.response[i] >= Duration((*truth)[i]));
       }
     }
     CHECK(undecided == 0);

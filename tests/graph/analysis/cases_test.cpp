@@ -22,7 +22,7 @@ const Json& cases() {
   return all;
 }
 
-constexpr std::int64_t unit = 1'000'000;  // ns that stand for one unit of a case
+constexpr Duration unit = std::chrono::milliseconds(1);  // stands for one unit of a case
 
 std::string name_of(std::size_t i) { return (i < 10 ? "t0" : "t") + std::to_string(i); }
 
@@ -76,7 +76,7 @@ void check_case(const Json& c) {
   // what can't be preempted is held up by one nanosecond less than a whole WCET: there the unit is the nanosecond
   const bool small = policy_of(c).ends_with("nonpreemptive");
   const Graph graph = tests::graph_of(yaml_of(c, small ? "ns" : "ms"));
-  const std::int64_t scale = small ? 1 : unit;
+  const Duration scale = small ? Duration(1) : unit;
   const Json& expect = c["expect"];
   const System system = system_of(graph);
   const Result result = check(system);
@@ -86,7 +86,7 @@ void check_case(const Json& c) {
   const bool edf_late = policy_of(c) == "edf" && !expect["schedulable"].get<bool>();
   // published responses under EDF are over all shifts
   const bool moves = policy_of(c) == "edf" && std::none_of(system.models.begin(), system.models.end(),
-                                                           [](const TaskModel& m) { return m.offset > 0; });
+                                                           [](const TaskModel& m) { return m.offset > Duration{}; });
   System shifted = system;
   shifted.offsets_hold = system.offsets_hold && !moves;
   const Result every_shift = check(shifted);
@@ -122,7 +122,7 @@ void check_case(const Json& c) {
     }
     if (expect.contains("max_C"))
       for (std::size_t i = 0; i < expect["max_C"].size(); ++i)
-        CHECK(s.max_wcet[i].value_or(0) / scale == expect["max_C"][i].get<std::int64_t>());
+        CHECK(s.max_wcet[i].value_or(Duration{}) / scale == expect["max_C"][i].get<std::int64_t>());
   }
 }
 
@@ -155,7 +155,7 @@ void check_global(const Json& c) {
   const auto responses = global_edf_responses(system.models, system.cores, budget);
   for (std::size_t i = 0; i < responses.size(); ++i) {
     REQUIRE(responses[i]);
-    CHECK(*responses[i] == c["expect"]["R_edf"][i].get<std::int64_t>());
+    CHECK(*responses[i] == Duration(c["expect"]["R_edf"][i].get<std::int64_t>()));
   }
 }
 
@@ -165,7 +165,8 @@ void check_walk(const Json& c) {
   CHECK(result.evidence == Evidence::proof);
   REQUIRE(result.late);
   const DeadlineMiss& m = *result.late;
-  CHECK(Json{m.task, m.activation, m.release, m.deadline, m.finish} == c["expect"]["first_miss"]);
+  CHECK(Json{m.task, m.activation, m.release.count(), m.deadline.count(), m.finish.count()} ==
+        c["expect"]["first_miss"]);
 }
 }  // namespace
 

@@ -94,7 +94,7 @@ chains:
     CHECK(fast.min_reaction == 2 * ms);
     CHECK(slow.max_reaction == 20 * ms);  // what is published at an instant is handed over at the next
     CHECK(slow.min_reaction == 10 * ms);
-    CHECK(slow.at == std::vector<std::int64_t>{50 * ms, 50 * ms, 50 * ms, 50 * ms, 60 * ms});
+    CHECK(slow.at == std::vector<Duration>{50 * ms, 50 * ms, 50 * ms, 50 * ms, 60 * ms});
   }
 
   TEST_CASE("a chain that repeats too late to be enumerated has the classical upper bound") {
@@ -112,11 +112,11 @@ chains:
       if (i > 0) connections += "  - " + task_name(i - 1) + ".out -> " + task_name(i) + ".in\n";
     }
     const Graph graph = tests::graph_of("graph: t\ntasks:\n" + tasks + "connections:\n" + connections);
-    constexpr std::int64_t period = 315'000'000'000'000'000;  // ns
+    constexpr Duration period = std::chrono::seconds(315'000'000);
     std::vector<End> path = all_tasks(graph);
     const ChainLatency all = exact_latency(graph, path);
     CHECK_FALSE(all.exact);
-    CHECK(all.max_age == std::numeric_limits<std::int64_t>::max());
+    CHECK(all.max_age == Duration::max());
     path.resize(5);
     const ChainLatency five = exact_latency(graph, path);
     CHECK_FALSE(five.exact);

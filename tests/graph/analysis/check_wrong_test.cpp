@@ -27,10 +27,10 @@ struct Judged {
     return text;
   }
 
-  std::int64_t response(const std::string& task) const {
+  Duration response(const std::string& task) const {
     for (std::size_t i = 0; i < graph.tasks.size(); ++i)
-      if (graph.tasks[i].name == task) return result.response[i].value_or(-1);
-    return -2;
+      if (graph.tasks[i].name == task) return result.response[i].value_or(Duration(-1));
+    return Duration(-2);
   }
   std::string late() const { return result.late ? graph.tasks[result.late->task].name : ""; }
 };
@@ -132,7 +132,7 @@ TEST_SUITE("graph/analysis/check_wrong") {
     const Judged j("coprime_table");
     CHECK(j.result.verdict == Verdict::schedulable);
     CHECK(j.result.evidence == Evidence::safe);
-    for (const std::string task : {"a", "b", "c"}) CHECK(j.response(task) <= 3'000);
+    for (const std::string task : {"a", "b", "c"}) CHECK(j.response(task) <= std::chrono::microseconds(3));
   }
 
   TEST_CASE("what holds up one task makes another late that it can't hold up: behind it, or by its rest") {
@@ -150,8 +150,9 @@ TEST_SUITE("graph/analysis/check_wrong") {
     Budget budget;
     const auto margins = sensitivity_of(j.system, true, budget);
     REQUIRE((margins && margins->min_deadline[1]));
-    const std::string ns = std::to_string(*margins->min_deadline[1]) + "ns, wcet: 1ms, priority: 3",
-                      less = std::to_string(*margins->min_deadline[1] - 1) + "ns, wcet: 1ms, priority: 3";
+    const std::int64_t least = margins->min_deadline[1]->count();
+    const std::string ns = std::to_string(least) + "ns, wcet: 1ms, priority: 3",
+                      less = std::to_string(least - 1) + "ns, wcet: 1ms, priority: 3";
     CHECK(Judged("min_deadline", "wcet: 1ms, priority: 3", "deadline: " + ns).result.verdict == Verdict::schedulable);
     CHECK(Judged("min_deadline", "wcet: 1ms, priority: 3", "deadline: " + less).result.verdict ==
           Verdict::not_schedulable);

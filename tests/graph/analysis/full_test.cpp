@@ -6,19 +6,21 @@
 
 namespace {
 using namespace jarol::analysis;
+using namespace std::chrono_literals;
+using jarol::Duration;
 using jarol::Policy;
 namespace policies = jarol::policies;
 
 using jarol::tests::ms;
 
 // 1 - 2.5e-9 of a core, and so as long as the last task takes no longer.
-System nearly_full(const Policy& policy, std::int64_t last) {
+System nearly_full(const Policy& policy, Duration last) {
   System system;
   system.policy = policy;
   system.offsets_hold = false;
-  const std::int64_t periods[] = {100 * ms, 200 * ms, 400 * ms, 400 * ms};
+  const Duration periods[] = {100 * ms, 200 * ms, 400 * ms, 400 * ms};
   for (std::size_t i = 0; i < 4; ++i) {
-    system.models.push_back({i == 3 ? last : 50 * ms, periods[i], periods[i], 0, 0, 0, 0});
+    system.models.push_back({.wcet = i == 3 ? last : 50 * ms, .period = periods[i], .deadline = periods[i]});
     system.rank.push_back(i);
     system.turn.push_back(i);
   }
@@ -33,16 +35,16 @@ TEST_SUITE("graph/analysis/full") {
     for (const Policy& policy : {policies::edf, policies::edf_nonpreemptive, policies::fixed_priority,
                                  policies::fixed_priority_nonpreemptive}) {
       CAPTURE(policy.name);
-      const Result holds = check(nearly_full(policy, 50 * ms - 1));
+      const Result holds = check(nearly_full(policy, 50 * ms - 1ns));
       CHECK(holds.verdict == Verdict::schedulable);
       CHECK(holds.evidence == Evidence::proof);
-      const Result over = check(nearly_full(policy, 50 * ms + 1));
+      const Result over = check(nearly_full(policy, 50 * ms + 1ns));
       CHECK(over.verdict == Verdict::not_schedulable);
     }
   }
 
   TEST_CASE("a verdict that would take more effort is given up, and not the one after it") {
-    const System system = nearly_full(policies::edf_nonpreemptive, 50 * ms - 1);
+    const System system = nearly_full(policies::edf_nonpreemptive, 50 * ms - 1ns);
     Budget little{20}, enough{1'000};
     CHECK(verdict_of(system, little) == Verdict::unknown);
     CHECK(little.spent());

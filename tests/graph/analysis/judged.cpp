@@ -53,9 +53,9 @@ std::string Judged::wrong() const {
   if (says(Verdict::not_schedulable)) return said.evidence == analysis::Evidence::proof ? "false proof" : "";
   if (says(Verdict::unknown)) return "";
   for (std::size_t i = 0; i < set.tasks.size(); ++i)
-    if (said.response[i] && *said.response[i] < truth.longest[i]) return "short response";
+    if (said.response[i] && *said.response[i] < Duration(truth.longest[i])) return "short response";
   for (std::size_t i = 0; i < set.tasks.size(); ++i)
-    if (said.response[i] && said.exact[i] && *said.response[i] > truth.longest[i])
+    if (said.response[i] && said.exact[i] && *said.response[i] > Duration(truth.longest[i]))
       return "response that is not reached";
   return "";
 }
@@ -63,7 +63,7 @@ std::string Judged::wrong() const {
 std::string Judged::text() const {
   std::string text = yaml_of(set, "ms") + "said: " + said.reason + "; responses";
   for (std::size_t i = 0; i < said.response.size(); ++i)
-    text += (said.exact[i] ? " " : " <=") + (said.response[i] ? std::to_string(*said.response[i]) : "-");
+    text += (said.exact[i] ? " " : " <=") + (said.response[i] ? std::to_string(said.response[i]->count()) : "-");
   text += ", cores";
   for (const auto& c : said.core) text += " " + (c ? std::to_string(*c) : "-");
   text += truth.answer == Answer::late ? "\ntrue: late\n" + truth.witness : "\ntrue: schedulable, longest responses";

@@ -134,8 +134,8 @@ struct Tally {
     for (std::size_t i = 0; i < longest.size(); ++i) {
       if (!said.response[i]) continue;
       ++reported;
-      reached += *said.response[i] == longest[i] ? 1U : 0U;
-      if (*said.response[i] >= longest[i]) continue;
+      reached += *said.response[i] == Duration(longest[i]) ? 1U : 0U;
+      if (*said.response[i] >= Duration(longest[i])) continue;
       ++short_ones;
       if (first.empty())
         first = truth::Judged{set, said, {}}.text() + "\nbut task " + std::string(1, static_cast<char>('a' + i)) +
@@ -161,10 +161,10 @@ struct WholeTally {
     for (std::size_t i = 0; i < longest->size(); ++i) {
       if (!said.response[i]) continue;
       ++responses;
-      const bool same = *said.response[i] == (*longest)[i];
+      const bool same = *said.response[i] == Duration((*longest)[i]);
       exact += said.exact[i] ? 1U : 0U;
       reached += same && !said.exact[i] ? 1U : 0U;
-      if (said.exact[i] ? same : *said.response[i] >= (*longest)[i]) continue;
+      if (said.exact[i] ? same : *said.response[i] >= Duration((*longest)[i])) continue;
       ++wrong;
       if (first.empty())
         first = truth::Judged{set, said, {}}.text() + "\nbut task " + std::string(1, static_cast<char>('a' + i)) +
@@ -230,6 +230,6 @@ tasks:
   e: {type: Counter, period: 6ns, wcet: 1ns}
 )"));
     CHECK(said.verdict == Verdict::not_schedulable);
-    CHECK(said.response == std::vector<std::optional<std::int64_t>>(5));
+    CHECK(said.response == std::vector<std::optional<Duration>>(5));
   }
 }

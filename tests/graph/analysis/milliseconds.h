@@ -1,8 +1,8 @@
-// Times of the analysis are counted in ns.
+// A unit that tests of the analysis count times in.
 #pragma once
 
-#include <cstdint>
+#include "graph/language/duration.h"
 
 namespace jarol::tests {
-inline constexpr std::int64_t ms = 1'000'000;
+inline constexpr Duration ms = std::chrono::milliseconds(1);
 }  // namespace jarol::tests

@@ -7,6 +7,8 @@
 
 namespace {
 using namespace jarol::analysis;
+using namespace std::chrono_literals;
+using jarol::Duration;
 using jarol::Policy;
 namespace policies = jarol::policies;
 
@@ -26,7 +28,10 @@ System random_system(std::uint64_t seed, const Policy& policy) {
   const auto n = static_cast<std::size_t>(drawn(seed, 2, 5));
   for (std::size_t i = 0; i < n; ++i) {
     const std::int64_t period = drawn(seed, 2, 7), wcet = drawn(seed, 1, period);
-    system.models.push_back({wcet, period, drawn(seed, wcet, period), drawn(seed, 0, period - 1), 0, 0, 0});
+    system.models.push_back({.wcet = Duration(wcet),
+                             .period = Duration(period),
+                             .deadline = Duration(drawn(seed, wcet, period)),
+                             .offset = Duration(drawn(seed, 0, period - 1))});
     system.rank.push_back(i);
     system.turn.push_back(i);
   }
@@ -74,10 +79,10 @@ TEST_SUITE("graph/analysis/partition") {
       system.policy = policy;
       system.cores = 64;
       std::uint64_t seed = 7;
-      const std::int64_t ms = 1'000'000, periods[] = {5 * ms, 10 * ms, 20 * ms, 50 * ms, 100 * ms};
+      const Duration periods[] = {5ms, 10ms, 20ms, 50ms, 100ms};
       for (std::size_t i = 0; i < 400; ++i) {
-        const std::int64_t period = periods[drawn(seed, 0, 4)], wcet = period * drawn(seed, 40, 120) / 1000;
-        system.models.push_back({wcet, period, period, 0, 0, 0, 0});
+        const Duration period = periods[drawn(seed, 0, 4)], wcet = period * drawn(seed, 40, 120) / 1000;
+        system.models.push_back({.wcet = wcet, .period = period, .deadline = period});
         system.rank.push_back(i);
         system.turn.push_back(i);
         if (i % 4 == 1 && system.models[i - 1].period == period) system.follows.emplace_back(i - 1, i);
@@ -96,7 +101,7 @@ TEST_SUITE("graph/analysis/partition") {
     system.policy = policies::fixed_priority;
     system.cores = 2;
     for (std::size_t i = 0; i < 4; ++i) {
-      system.models.push_back({i == 0 ? 1 : 4, 10, 10, 0, 0, 0, 0});
+      system.models.push_back({.wcet = i == 0 ? 1ns : 4ns, .period = 10ns, .deadline = 10ns});
       system.rank.push_back(i);
       system.turn.push_back(i);
       if (i > 0) system.follows.emplace_back(0, i);
@@ -104,7 +109,7 @@ TEST_SUITE("graph/analysis/partition") {
     system.priority.resize(4);
     system.core.resize(4);
     CHECK(check(system).verdict == Verdict::schedulable);
-    for (std::size_t i = 1; i < 4; ++i) system.models[i].wcet = 6;
+    for (std::size_t i = 1; i < 4; ++i) system.models[i].wcet = 6ns;
     const Result no = check(system);
     CHECK(no.verdict == Verdict::not_schedulable);
     CHECK(no.reason.ends_with("; no assignment of tasks to cores holds"));

@@ -6,6 +6,7 @@
 
 namespace {
 using namespace jarol;
+using namespace std::chrono_literals;
 
 // Each task follows the one before it, which is on the other core.
 Graph alternating_chain(int count, const std::string& policy) {
@@ -43,6 +44,7 @@ TEST_SUITE("graph/analysis/partitioned") {
         result.reason ==
         "every activation ends by its deadline in every order that is possible (schedule-abstraction graph), with the "
         "longest waits for those that they follow (holistic analysis)");
-    CHECK(result.response == std::vector<std::optional<std::int64_t>>{1'000, 2'999, 4'998, 6'997, 7'997, 8'997});
+    CHECK(result.response ==
+          std::vector<std::optional<Duration>>{1'000ns, 2'999ns, 4'998ns, 6'997ns, 7'997ns, 8'997ns});
   }
 }

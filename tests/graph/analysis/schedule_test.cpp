@@ -7,6 +7,7 @@
 
 namespace {
 using namespace jarol;
+using namespace std::chrono_literals;
 using analysis::ExecutionTimes, analysis::Fate, analysis::Schedule;
 
 // Fates of the first activations of a task: "3", "late 12", "late", "left out", in ms.
@@ -17,7 +18,7 @@ std::string fates(Schedule& schedule, std::size_t task, std::int64_t count) {
     if (i > 0) text += ", ";
     if (fate.kind == Fate::Kind::left_out) text += "left out";
     if (fate.kind == Fate::Kind::late) text += fate.response ? "late " : "late";
-    if (fate.response) text += std::to_string(*fate.response / 1'000'000);
+    if (fate.response) text += std::to_string(*fate.response / 1ms);
   }
   return text;
 }
@@ -143,10 +144,10 @@ platform: {cores: 2, policy: POLICY}
     const ExecutionTimes one = ExecutionTimes::random(graph, 1), same = ExecutionTimes::random(graph, 1),
                          other = ExecutionTimes::random(graph, 2);
     const Graph alone = tests::graph_of("graph: t\ntiming: {period: 20ms}\ntasks: {b: {type: Counter, wcet: 8ms}}\n");
-    std::int64_t min = 8'000'000, max = 0, sum = 0;
+    Duration min = 8ms, max{}, sum{};
     bool differs = false;
     for (std::int64_t i = 0; i < 4000; ++i) {
-      const std::int64_t time = one(1, i);
+      const Duration time = one(1, i);
       CHECK(time == same(1, i));
       CHECK(time == ExecutionTimes::random(alone, 1)(0, i));
       differs = differs || time != other(1, i);
@@ -155,11 +156,11 @@ platform: {cores: 2, policy: POLICY}
       sum += time;
     }
     CHECK(differs);
-    CHECK(min >= 1);
-    CHECK(min < 40'000);
-    CHECK(max <= 8'000'000);
-    CHECK(max > 7'960'000);
-    CHECK(sum / 4000 == doctest::Approx(4e6).epsilon(0.03).scale(0));  // four deviations of the mean
+    CHECK(min >= 1ns);
+    CHECK(min < 40us);
+    CHECK(max <= 8ms);
+    CHECK(max > 7'960us);
+    CHECK(sum.count() / 4000 == doctest::Approx(4e6).epsilon(0.03).scale(0));  // four deviations of the mean
   }
 
   TEST_CASE("all that is wrong with a file of times is reported with its place") {

@@ -10,6 +10,8 @@
 
 namespace {
 using namespace jarol::analysis;
+using namespace std::chrono_literals;
+using jarol::Duration;
 
 // splitmix64
 std::int64_t drawn_up_to(std::uint64_t& state, std::int64_t min, std::int64_t max) {
@@ -26,7 +28,10 @@ System random_system(std::uint64_t seed) {
   const auto n = static_cast<std::size_t>(system.cores + drawn_up_to(seed, 0, 3));
   for (std::size_t i = 0; i < n; ++i) {
     const std::int64_t period = drawn_up_to(seed, 2, 6), wcet = drawn_up_to(seed, 1, period);
-    system.models.push_back({wcet, period, drawn_up_to(seed, wcet, period), drawn_up_to(seed, 0, period - 1), 0, 0, 0});
+    system.models.push_back({.wcet = Duration(wcet),
+                             .period = Duration(period),
+                             .deadline = Duration(drawn_up_to(seed, wcet, period)),
+                             .offset = Duration(drawn_up_to(seed, 0, period - 1))});
     system.rank.push_back(i);
     system.turn.push_back(i);
   }
@@ -39,24 +44,24 @@ System random_system(std::uint64_t seed) {
 bool trial_holds(const System& system, std::optional<std::uint64_t> shorter) {
   struct Job {
     std::size_t task;
-    std::int64_t deadline, left;
+    Duration deadline, left;
   };
   std::int64_t lcm = 1;
-  for (const TaskModel& m : system.models) lcm = std::lcm(lcm, m.period);
+  for (const TaskModel& m : system.models) lcm = std::lcm(lcm, m.period.count());
   std::vector<Job> jobs;
-  for (std::int64_t now = 0; now < 10 * lcm + 10; ++now) {
+  for (Duration now{}; now < Duration(10 * lcm + 10); ++now) {
     for (std::size_t i = 0; i < system.models.size(); ++i) {
       const TaskModel& m = system.models[i];
-      if (now >= m.offset && (now - m.offset) % m.period == 0)
-        jobs.push_back({i, now + m.deadline, shorter ? drawn_up_to(*shorter, 1, m.wcet) : m.wcet});
+      if (now >= m.offset && (now - m.offset) % m.period == 0ns)
+        jobs.push_back({i, now + m.deadline, shorter ? Duration(drawn_up_to(*shorter, 1, m.wcet.count())) : m.wcet});
     }
     std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) {
       return a.deadline != b.deadline ? a.deadline < b.deadline : a.task < b.task;
     });
     for (std::size_t c = 0; c < jobs.size() && c < static_cast<std::size_t>(system.cores); ++c) --jobs[c].left;
     for (const Job& job : jobs)
-      if (job.left > 0 && job.deadline <= now + 1) return false;
-    std::erase_if(jobs, [](const Job& job) { return job.left == 0; });
+      if (job.left > 0ns && job.deadline <= now + 1ns) return false;
+    std::erase_if(jobs, [](const Job& job) { return job.left == 0ns; });
   }
   return true;
 }
@@ -95,11 +100,10 @@ TEST_SUITE("graph/analysis/simulate_global") {
   }
 
   TEST_CASE("on a thousand cores a task that takes far too long is found late after one activation of it") {
-    constexpr std::int64_t ms = 1'000'000;
     System system;
     system.policy = jarol::policies::global_edf;
     system.cores = 1024;
-    system.models = {{100'000 * ms, ms, ms, 0, 0, 0, 0}, {ms, 10 * ms, 10 * ms, 0, 0, 0, 0}};
+    system.models = {{.wcet = 100s, .period = 1ms, .deadline = 1ms}, {.wcet = 1ms, .period = 10ms, .deadline = 10ms}};
     system.rank = system.turn = {0, 1};
     system.priority.resize(2);
     system.core.resize(2);
@@ -107,24 +111,24 @@ TEST_SUITE("graph/analysis/simulate_global") {
     CHECK(result.verdict == Verdict::not_schedulable);
     CHECK(result.evidence == Evidence::proof);
     CHECK(result.reason == "the tasks need more than all cores");
-    system.models[0].wcet = 20 * ms;
+    system.models[0].wcet = 20ms;
     const Result soon = check(system);
     REQUIRE(soon.late);
-    CHECK(soon.late->finish == 20 * ms);
+    CHECK(soon.late->finish == 20ms);
     // a piece for each that runs, as long as it runs
     const auto first = std::find_if(soon.slices.begin(), soon.slices.end(),
                                     [](const Slice& s) { return s.task == 0 && s.activation == 0; });
     REQUIRE(first != soon.slices.end());
-    CHECK(first->begin == 0);
-    CHECK(first->end == 20 * ms);
+    CHECK(first->begin == 0ns);
+    CHECK(first->end == 20ms);
   }
 
   TEST_CASE("what arrives while one activation runs for long is bounded, too") {
-    constexpr std::int64_t hour = 3'600'000'000'000, max = 1'000;
-    const std::vector<TaskModel> models{{999 * hour, 1000 * hour, 1000 * hour, 0, 0, 0, 0},
-                                        {10'000, 1'000'000, 1'000'000, 0, 0, 0, 0}};
+    constexpr std::uint64_t max = 1'000;
+    const std::vector<TaskModel> models{{.wcet = 999h, .period = 1000h, .deadline = 1000h},
+                                        {.wcet = 10us, .period = 1ms, .deadline = 1ms}};
     for (const Order order : {Order::by_priority, Order::by_deadline}) {
-      const Simulation walked = simulate(models, order, false, 2000 * hour, max);
+      const Simulation walked = simulate(models, order, false, 2000h, max);
       CHECK(!walked.whole);
       CHECK(walked.activations == max + 1);
     }

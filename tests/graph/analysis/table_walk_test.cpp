@@ -58,7 +58,7 @@ TEST_SUITE("graph/analysis/table_walk") {
       bool right = said.verdict == (walk.late.empty() ? Verdict::schedulable : Verdict::not_schedulable) &&
                    said.evidence == analysis::Evidence::proof;
       for (std::size_t i = 0; i < set.tasks.size() && right && walk.late.empty(); ++i)
-        right = said.response[i] == walk.longest[i];
+        right = said.response[i] == Duration(walk.longest[i]);
       if (!right && ++wrong == 1) FAIL_CHECK(truth::yaml_of(set, "ns"), "said: ", said.reason, "\ntrue: ", walk.late);
     }
     CHECK(wrong == 0);

@@ -6,6 +6,7 @@
 
 namespace {
 using namespace jarol;
+using namespace std::chrono_literals;
 
 // "a 0-2, b 2-11; until 20", in ms
 std::string line_text(const std::string& text) {
@@ -14,9 +15,8 @@ std::string line_text(const std::string& text) {
   const analysis::TimeLine line = analysis::time_line_of(system, analysis::check(system));
   std::string found;
   for (const analysis::Slice& s : line.slices)
-    found += graph.tasks[s.task].name + " " + std::to_string(s.begin / 1'000'000) + "-" +
-             std::to_string(s.end / 1'000'000) + ", ";
-  return found + "until " + std::to_string(line.until / 1'000'000);
+    found += graph.tasks[s.task].name + " " + std::to_string(s.begin / 1ms) + "-" + std::to_string(s.end / 1ms) + ", ";
+  return found + "until " + std::to_string(line.until / 1ms);
 }
 
 // The second is released while the first runs, for the second time.
@@ -55,14 +55,14 @@ TEST_SUITE("graph/analysis/time_line") {
       const analysis::System system = analysis::system_of(graph);
       return analysis::time_line_of(system, analysis::check(system), length);
     };
-    CHECK(line("", {}).round == 20'000'000);
-    CHECK(line("", {.until_it_repeats = true}).until == 20'000'000);
-    CHECK(line(", offset: 5ms", {}).until == 25'000'000);
+    CHECK(line("", {}).round == 20ms);
+    CHECK(line("", {.until_it_repeats = true}).until == 20ms);
+    CHECK(line(", offset: 5ms", {}).until == 25ms);
     CHECK(!line(", offset: 5ms", {}).round);
-    CHECK(line(", offset: 5ms", {.until_it_repeats = true}).until == 45'000'000);
-    CHECK(line(", offset: 5ms", {.until_it_repeats = true}).round == 20'000'000);
+    CHECK(line(", offset: 5ms", {.until_it_repeats = true}).until == 45ms);
+    CHECK(line(", offset: 5ms", {.until_it_repeats = true}).round == 20ms);
     CHECK(!line(", offset: 5ms", {.until_it_repeats = true, .max_activations = 5}).round);
-    CHECK(line("", {.max_activations = 1}).until < 20'000'000);
+    CHECK(line("", {.max_activations = 1}).until < 20ms);
   }
 
   TEST_CASE("tasks on cores of their own do not wait for each other, readers wait for what they follow") {

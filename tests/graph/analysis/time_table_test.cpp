@@ -9,6 +9,7 @@
 namespace {
 using namespace jarol;
 using namespace jarol::analysis;
+using namespace std::chrono_literals;
 
 CoreResult table_of(const std::string& text, std::uint64_t max) {
   const System system = system_of(tests::graph_of(text));
@@ -26,27 +27,28 @@ tasks:
   b: {type: Relay, wcet: 3ns, deadline: 8ns}
 connections: [a.out -> b.in]
 )"));
-    const std::vector<Slice> good{{0, 0, 0, 2}, {1, 0, 2, 5}, {0, 1, 10, 12}, {1, 1, 12, 15}};
+    const std::vector<Slice> good{{0, 0, 0ns, 2ns}, {1, 0, 2ns, 5ns}, {0, 1, 10ns, 12ns}, {1, 1, 12ns, 15ns}};
     const std::vector<std::size_t> one{0, 0}, two{0, 1};
-    CHECK(fault_of_table(system, one, good, 20, 10) == "");
+    CHECK(fault_of_table(system, one, good, 20ns, 10ns) == "");
     const auto with = [&](std::size_t i, Slice slice) {
       std::vector<Slice> changed = good;
       changed[i] = slice;
       return changed;
     };
-    CHECK(fault_of_table(system, one, with(3, {1, 0, 12, 15}), 20, 10) == "task 1 activation 0 stands twice");
-    CHECK(fault_of_table(system, one, {good[0], good[1], good[2]}, 20, 10) == "task 1 activation 1 is missing");
-    CHECK(fault_of_table(system, one, with(1, {1, 0, 2, 4}), 20, 10) == "task 1 activation 0 is cut short");
-    CHECK(fault_of_table(system, one, with(2, {0, 1, 9, 12}), 20, 10) ==
+    CHECK(fault_of_table(system, one, with(3, {1, 0, 12ns, 15ns}), 20ns, 10ns) == "task 1 activation 0 stands twice");
+    CHECK(fault_of_table(system, one, {good[0], good[1], good[2]}, 20ns, 10ns) == "task 1 activation 1 is missing");
+    CHECK(fault_of_table(system, one, with(1, {1, 0, 2ns, 4ns}), 20ns, 10ns) == "task 1 activation 0 is cut short");
+    CHECK(fault_of_table(system, one, with(2, {0, 1, 9ns, 12ns}), 20ns, 10ns) ==
           "task 0 activation 1 begins before its release");
-    CHECK(fault_of_table(system, one, with(1, {1, 0, 6, 9}), 20, 10) == "task 1 activation 0 ends after its deadline");
-    CHECK(fault_of_table(system, two, with(1, {1, 0, 1, 4}), 20, 10) ==
+    CHECK(fault_of_table(system, one, with(1, {1, 0, 6ns, 9ns}), 20ns, 10ns) ==
+          "task 1 activation 0 ends after its deadline");
+    CHECK(fault_of_table(system, two, with(1, {1, 0, 1ns, 4ns}), 20ns, 10ns) ==
           "task 1 activation 0 begins before the one that it follows has ended");
     System apart = system;
     apart.follows.clear();
-    CHECK(fault_of_table(apart, one, with(1, {1, 0, 1, 4}), 20, 10) ==
+    CHECK(fault_of_table(apart, one, with(1, {1, 0, 1ns, 4ns}), 20ns, 10ns) ==
           "task 1 activation 0 begins while another runs on its core");
-    CHECK(fault_of_table(apart, two, with(1, {1, 0, 1, 4}), 20, 10) == "");
+    CHECK(fault_of_table(apart, two, with(1, {1, 0, 1ns, 4ns}), 20ns, 10ns) == "");
   }
 
   using tests::graph_of;
@@ -66,7 +68,7 @@ tasks:
     CHECK(r.verdict == Verdict::not_schedulable);
     REQUIRE(r.late);
     CHECK(r.late->task == 0);
-    CHECK(r.late->finish == 50'000'000);
+    CHECK(r.late->finish == 50ms);
   }
 
   TEST_CASE("tasks that fit are schedulable, and their responses are reported") {
@@ -78,8 +80,8 @@ tasks:
     CHECK(r.verdict == Verdict::schedulable);
     CHECK(r.reason == "every job of the time table ends by its deadline");
     CHECK(r.utilisation == doctest::Approx(0.45));
-    CHECK(r.response[0] == 2'000'000);
-    CHECK(r.response[1] == 7'000'000);
+    CHECK(r.response[0] == 2ms);
+    CHECK(r.response[1] == 7ms);
   }
 
   TEST_CASE("the first late job is named with its times") {
@@ -92,9 +94,9 @@ tasks:
     REQUIRE(r.late.has_value());
     CHECK(r.late->task == 1);
     CHECK(r.late->activation == 1);
-    CHECK(r.late->release == 10'000'000);
-    CHECK(r.late->finish == 23'000'000);
-    CHECK(r.late->deadline == 20'000'000);
+    CHECK(r.late->release == 10ms);
+    CHECK(r.late->finish == 23ms);
+    CHECK(r.late->deadline == 20ms);
   }
 
   TEST_CASE("more than the whole core is never schedulable, by however little") {
@@ -180,7 +182,7 @@ tasks:
     const Result yes = with("371us");
     CHECK(yes.verdict == Verdict::schedulable);
     CHECK(yes.evidence == Evidence::safe);
-    CHECK(yes.response[1] == 370'999);  // c at the same instant comes after it
+    CHECK(yes.response[1] == 370'999ns);  // c at the same instant comes after it
     CHECK(with("319us").verdict == Verdict::not_schedulable);
   }
 }

@@ -16,7 +16,8 @@ using tests::ms;
 // The late activation of a set of tasks.
 struct Late {
   std::string task;
-  std::int64_t activation = -1, release = -1, finish = -1, deadline = -1;
+  std::int64_t activation = -1;
+  Duration release{-1}, finish{-1}, deadline{-1};
   bool ended = true;
   bool operator==(const Late&) const = default;
 };
@@ -39,13 +40,13 @@ const std::string starved = R"(tasks:
 TEST_SUITE("graph/analysis/witness") {
   TEST_CASE("what goes before a late activation arrives until that has ended") {
     // a millisecond of each ten is left for it
-    CHECK(late_of("fixed_priority", starved) == Late{"lp", 0, 0, 500 * ms, 100 * ms});
+    CHECK(late_of("fixed_priority", starved) == Late{"lp", 0, {}, 500 * ms, 100 * ms});
   }
 
   TEST_CASE("a late activation that never ends is late at the end of the run") {
     std::string full = starved;
     full.replace(full.find("9ms"), 3, "10ms");
-    CHECK(late_of("fixed_priority", full) == Late{"lp", 0, 0, 182'010 * ms, 100 * ms, false});
+    CHECK(late_of("fixed_priority", full) == Late{"lp", 0, {}, 182'010 * ms, 100 * ms, false});
   }
 
   TEST_CASE("what takes ten years is late before the time of an analysis is over") {
@@ -53,7 +54,7 @@ TEST_SUITE("graph/analysis/witness") {
   a: {type: Counter, period: 87600h, wcet: 87600h}
   b: {type: Counter, period: 87600h, wcet: 1ns}
 )");
-    CHECK(late == Late{"b", 0, 0, std::int64_t{1} << 62, 315'360'000'000 * ms, false});
+    CHECK(late == Late{"b", 0, {}, Duration(std::int64_t{1} << 62), 315'360'000'000 * ms, false});
   }
 
   TEST_CASE("a reader of a higher priority does not go before what it follows, and is what is late") {
@@ -64,7 +65,7 @@ connections: [p.out -> r.in]
 )";
     for (const std::string policy : {"fixed_priority", "fixed_priority_nonpreemptive"}) {
       CAPTURE(policy);
-      CHECK(late_of(policy, up) == Late{"r", 0, 0, 11 * ms, 10 * ms});
+      CHECK(late_of(policy, up) == Late{"r", 0, {}, 11 * ms, 10 * ms});
     }
   }
 

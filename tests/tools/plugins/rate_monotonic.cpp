@@ -12,7 +12,7 @@ struct RateMonotonic {
   static bool is_simple(const System& system) {
     if (system.cores > 1 || !system.follows.empty()) return false;
     for (const TaskModel& m : system.models)
-      if (m.deadline < m.period || m.jitter > 0 || m.blocking > 0) return false;
+      if (m.deadline < m.period || m.jitter.count() > 0 || m.blocking.count() > 0) return false;
     return true;
   }
 
@@ -20,7 +20,8 @@ struct RateMonotonic {
   static Result check(const System& system, bool, Budget&) {
     const auto against_all = compare_utilisation(system.models, system.cores);
     double product = 1;
-    for (const TaskModel& m : system.models) product *= 1 + static_cast<double>(m.wcet) / static_cast<double>(m.period);
+    for (const TaskModel& m : system.models)
+      product *= 1 + static_cast<double>(m.wcet.count()) / static_cast<double>(m.period.count());
     Result result;
     if (against_all && *against_all > 0) {
       result.verdict = Verdict::not_schedulable;

@@ -10,19 +10,20 @@ namespace {
 
 // Of bounds alone it is not known.
 std::string jitter_text(const analysis::ChainLatency& latency) {
-  return latency.exact ? duration(latency.jitter) : "-";
+  return latency.exact ? duration_text(latency.jitter) : "-";
 }
 
 // The phase that a loop through the chain loses at its crossover: the delay from read to output, and half a period that
 // the output is held (Franklin, Powell, Workman 1998).
 std::string control_view(const Graph& graph, const analysis::CheckedChain& c) {
   const End& last = c.chain.path.back();
-  const std::int64_t period = last.kind == End::Kind::task ? graph.tasks[last.index].period.count()
-                                                           : graph.communicators[last.index].period.count();
-  const double delay = static_cast<double>(c.latency.max_reduced) * 1e-9, held = 0.5e-9 * static_cast<double>(period);
+  const Duration period =
+      last.kind == End::Kind::task ? graph.tasks[last.index].period : graph.communicators[last.index].period;
+  const double delay = static_cast<double>(c.latency.max_reduced.count()) * 1e-9,
+               held = 0.5e-9 * static_cast<double>(period.count());
   return fmt::format("    at {:.4g} rad/s: delay {}, jitter {}, held for {}: {:.1f} deg of phase lost\n",
-                     *c.chain.crossover, duration(c.latency.max_reduced), jitter_text(c.latency), duration(period),
-                     *c.chain.crossover * (delay + held) * 180 / 3.14159265358979323846);
+                     *c.chain.crossover, duration_text(c.latency.max_reduced), jitter_text(c.latency),
+                     duration_text(period), *c.chain.crossover * (delay + held) * 180 / 3.14159265358979323846);
 }
 
 }  // namespace
@@ -49,8 +50,8 @@ std::string chain_lines(const CheckReport& r) {
   for (const analysis::CheckedChain& c : r.chains) {
     const analysis::ChainLatency& m = c.latency;
     text += fmt::format("  chain {}: reaction {} to {}, data age at most {}, jitter {}{}\n", c.chain.name,
-                        m.exact ? duration(m.min_reaction) : "-", duration(m.max_reaction), duration(m.max_age),
-                        jitter_text(m), m.exact ? "" : " (upper bounds)");
+                        m.exact ? duration_text(m.min_reaction) : "-", duration_text(m.max_reaction),
+                        duration_text(m.max_age), jitter_text(m), m.exact ? "" : " (upper bounds)");
     if (m.exact) {
       std::string hops;
       for (std::size_t i = 0; i < c.chain.path.size(); ++i) {
@@ -58,9 +59,9 @@ std::string chain_lines(const CheckReport& r) {
         hops += fmt::format(
             "{}{} {}", i == 0 ? "" : ", ",
             end.kind == End::Kind::task ? r.graph->tasks[end.index].name : r.graph->communicators[end.index].name,
-            duration(m.at[i + 1] - m.at[i]));
+            duration_text(m.at[i + 1] - m.at[i]));
       }
-      text += fmt::format("    slowest way from {}: {}\n", duration(m.at.front()), hops);
+      text += fmt::format("    slowest way from {}: {}\n", duration_text(m.at.front()), hops);
     }
     if (c.chain.crossover) text += control_view(*r.graph, c);
     for (const std::string& broken : analysis::broken_limits(c.chain, m))

@@ -16,6 +16,8 @@ Json json_or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
+Json json_or_null(const std::optional<Duration>& time) { return time ? Json(time->count()) : Json(nullptr); }
+
 // Null where nothing was measured.
 Json measured_json(const CheckReport& r) {
   if (!r.measured) return nullptr;
@@ -45,11 +47,11 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
               {"period_ns", t.period.count()},
               {"offset_ns", t.offset.count()},
               {"deadline_ns", t.deadline.count()},
-              {"wcet_ns", t.wcet ? Json(t.wcet->count()) : Json(nullptr)},
+              {"wcet_ns", json_or_null(t.wcet)},
               {"core", json_or_null(r.result.core[i])},
               {"response_ns", json_or_null(response)},
               {"response_exact", response ? Json(static_cast<bool>(r.result.exact[i])) : Json(nullptr)},
-              {"slack_ns", response ? Json(t.deadline.count() - *response) : Json(nullptr)},
+              {"slack_ns", response ? Json((t.deadline - *response).count()) : Json(nullptr)},
               {"max_wcet_ns", r.sensitivity ? json_or_null(r.sensitivity->max_wcet[i]) : Json(nullptr)},
               {"min_deadline_ns", r.sensitivity ? json_or_null(r.sensitivity->min_deadline[i]) : Json(nullptr)}};
     tasks.push_back(std::move(task));
@@ -62,26 +64,26 @@ nlohmann::ordered_json to_json(const CheckReport& r) {
       const analysis::DeadlineMiss& m = *r.result.late;
       witness.update({{"task", r.graph->tasks[m.task].name},
                       {"activation", m.activation},
-                      {"release_ns", m.release},
-                      {"finish_ns", m.ended ? Json(m.finish) : Json(nullptr)},
-                      {"deadline_ns", m.deadline}});
-      if (!m.ended) witness["unfinished_ns"] = m.finish;
+                      {"release_ns", m.release.count()},
+                      {"finish_ns", m.ended ? Json(m.finish.count()) : Json(nullptr)},
+                      {"deadline_ns", m.deadline.count()}});
+      if (!m.ended) witness["unfinished_ns"] = m.finish.count();
     }
     if (r.result.demand)
-      witness["demand"] = {{"length_ns", r.result.demand->length},
-                           {"demand_ns", r.result.demand->demand},
-                           {"blocking_ns", r.result.demand->blocking}};
+      witness["demand"] = {{"length_ns", r.result.demand->length.count()},
+                           {"demand_ns", r.result.demand->demand.count()},
+                           {"blocking_ns", r.result.demand->blocking.count()}};
   }
   auto chains = Json::array();
   for (const analysis::CheckedChain& c : r.chains)
     chains.push_back({{"name", c.chain.name},
                       {"exact", c.latency.exact},
-                      {"max_reaction_ns", c.latency.max_reaction},
-                      {"min_reaction_ns", c.latency.exact ? Json(c.latency.min_reaction) : Json(nullptr)},
-                      {"max_age_ns", c.latency.max_age},
-                      {"jitter_ns", c.latency.exact ? Json(c.latency.jitter) : Json(nullptr)},
-                      {"reaction_limit_ns", c.chain.reaction ? Json(c.chain.reaction->count()) : Json(nullptr)},
-                      {"age_limit_ns", c.chain.age ? Json(c.chain.age->count()) : Json(nullptr)},
+                      {"max_reaction_ns", c.latency.max_reaction.count()},
+                      {"min_reaction_ns", c.latency.exact ? Json(c.latency.min_reaction.count()) : Json(nullptr)},
+                      {"max_age_ns", c.latency.max_age.count()},
+                      {"jitter_ns", c.latency.exact ? Json(c.latency.jitter.count()) : Json(nullptr)},
+                      {"reaction_limit_ns", json_or_null(c.chain.reaction)},
+                      {"age_limit_ns", json_or_null(c.chain.age)},
                       {"holds", json_or_null(holds(c))}});
   const Platform& platform = r.graph->platform;
   auto suggestions = Json::array();

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 
 #include "graph/analysis/policies.h"
 #include "graph/analysis/system.h"
@@ -19,7 +18,8 @@ namespace {
 using analysis::Verdict;
 
 // To the microsecond, unless that would leave something out.
-std::string milliseconds(std::int64_t ns) {
+std::string milliseconds(Duration time) {
+  const std::int64_t ns = time.count();
   const double ms = static_cast<double>(ns) * 1e-6;
   if (ns % 1000 == 0) return fmt::format("{:.3f} ms", ms);
   if (std::abs(ns) < 1000) return fmt::format("{} ns", ns);
@@ -34,10 +34,10 @@ std::string platform_text(const Platform& platform) {
 // Where no run shows the miss, as offsets and jitter may be worse: the task that exceeds its deadline by most.
 std::string worst_response(const CheckReport& r) {
   std::optional<std::size_t> worst;
-  std::int64_t over = 0;
+  Duration over{};
   for (std::size_t i = 0; i < r.graph->tasks.size(); ++i) {
     if (!r.result.response[i]) continue;
-    const std::int64_t late = *r.result.response[i] - r.graph->tasks[i].deadline.count();
+    const Duration late = *r.result.response[i] - r.graph->tasks[i].deadline;
     if (late <= over) continue;
     over = late;
     worst = i;
@@ -46,7 +46,7 @@ std::string worst_response(const CheckReport& r) {
   const Task& t = r.graph->tasks[*worst];
   return fmt::format(" core {}: task '{}' responds within {} at {}, deadline {} (late {}{})",
                      r.result.core[*worst].value_or(0), t.name, milliseconds(*r.result.response[*worst]),
-                     r.result.exact[*worst] ? "worst" : "max", milliseconds(t.deadline.count()),
+                     r.result.exact[*worst] ? "worst" : "max", milliseconds(t.deadline),
                      r.result.exact[*worst] ? "" : "by at most ", milliseconds(over));
 }
 
@@ -132,29 +132,29 @@ std::string shares_text(const CheckReport& r) {
   if (!r.result.late) return "";
   const analysis::DeadlineMiss& late = *r.result.late;
   const analysis::System system = analysis::system_of(*r.graph);
-  const std::int64_t from = known_from(r.result);
-  std::vector<std::int64_t> ran(r.graph->tasks.size(), 0);
-  std::int64_t blocked = 0, idle = late.finish - from;
+  const Duration from = known_from(r.result);
+  std::vector<Duration> ran(r.graph->tasks.size());
+  Duration blocked{}, idle = late.finish - from;
   for (const analysis::Slice& s : r.result.slices) {
     if (s.end <= from) continue;
-    const std::int64_t begin = std::max(s.begin, from);
+    const Duration begin = std::max(s.begin, from);
     // in a table each piece begins with what holds it up
-    const std::int64_t blocking = system.policy.urgency == Urgency::turn ? system.models[s.task].blocking : 0;
-    const std::int64_t held = std::clamp<std::int64_t>(s.begin + blocking - begin, 0, s.end - begin);
+    const Duration blocking = system.policy.urgency == Urgency::turn ? system.models[s.task].blocking : Duration{};
+    const Duration held = std::clamp(s.begin + blocking - begin, Duration{}, s.end - begin);
     ran[s.task] += s.end - begin - held;
     blocked += held;
     idle -= s.end - begin;
   }
   std::string parts;
-  const auto add = [&](const std::string& what, std::int64_t time) {
-    if (time > 0) parts += (parts.empty() ? "" : " + ") + what + " " + duration(time);
+  const auto add = [&](const std::string& what, Duration time) {
+    if (time > Duration{}) parts += (parts.empty() ? "" : " + ") + what + " " + duration_text(time);
   };
   for (std::size_t i = 0; i < ran.size(); ++i) add(r.graph->tasks[i].name, ran[i]);
   add("blocking", blocked);
   if (system.policy.keeps_core && !parts.empty()) add("waiting" + awaited_by(r, system), idle);
   std::string text =
-      fmt::format("  from release to {} {}", late.ended ? "end" : "there", duration(late.finish - late.release));
-  if (from > late.release) text += fmt::format(", of which the last {}", duration(late.finish - from));
+      fmt::format("  from release to {} {}", late.ended ? "end" : "there", duration_text(late.finish - late.release));
+  if (from > late.release) text += fmt::format(", of which the last {}", duration_text(late.finish - from));
   // where the test that finds it late draws no time line
   return text + (parts.empty() ? "\n" : ": " + parts + "\n");
 }
@@ -163,24 +163,24 @@ std::string shares_text(const CheckReport& r) {
 std::string demand_text(const CheckReport& r) {
   if (!r.result.demand) return shares_text(r);
   const analysis::Demand& d = *r.result.demand;
-  const bool longer = d.demand == std::numeric_limits<std::int64_t>::max();
-  std::string text = fmt::format("  in an interval of {} work of {}{} is due", duration(d.length),
-                                 longer ? "more than " : "", duration(d.demand));
-  if (d.blocking > 0) text += fmt::format(", and {} can hold it up", duration(d.blocking));
+  const bool longer = d.demand == Duration::max();
+  std::string text = fmt::format("  in an interval of {} work of {}{} is due", duration_text(d.length),
+                                 longer ? "more than " : "", duration_text(d.demand));
+  if (d.blocking > Duration{}) text += fmt::format(", and {} can hold it up", duration_text(d.blocking));
   // with what the platform adds to each activation
   const analysis::System system = analysis::system_of(*r.graph);
   std::string parts;
   for (std::size_t i = 0; i < d.releases.size(); ++i)
     if (d.releases[i] > 0)
       parts += fmt::format("{}{} {}x{}", parts.empty() ? "" : " + ", r.graph->tasks[i].name, d.releases[i],
-                           duration(system.models[i].wcet));
+                           duration_text(system.models[i].wcet));
   return text + ": " + parts + "\n";
 }
 
 // With what the platform adds to each activation.
 double use_of(const analysis::System& system, std::size_t task) {
   const analysis::TaskModel& model = system.models[task];
-  return static_cast<double>(model.wcet) / static_cast<double>(model.period);
+  return static_cast<double>(model.wcet.count()) / static_cast<double>(model.period.count());
 }
 
 std::string task_table(const CheckReport& r) {
@@ -199,8 +199,8 @@ std::string task_table(const CheckReport& r) {
     text +=
         fmt::format("  {:<{}}  {:>9}  {:>9}  {:>9}  {:>9}  {:>6}  {:>9}  {:>9}", t.name, width, duration_text(t.period),
                     duration_text(t.offset), duration_text(t.deadline), t.wcet ? duration_text(*t.wcet) : "-", use,
-                    response ? (exact ? "" : "<=") + duration(*response) : "-",
-                    response ? (exact ? "" : ">=") + duration(t.deadline.count() - *response) : "-");
+                    response ? (exact ? "" : "<=") + duration_text(*response) : "-",
+                    response ? (exact ? "" : ">=") + duration_text(t.deadline - *response) : "-");
     if (cores) text += r.result.core[i] ? fmt::format("  {:>4}", *r.result.core[i]) : "     -";
     text += "\n";
   }
@@ -249,7 +249,7 @@ std::string sensitivity_lines(const CheckReport& r) {
     if (r.sensitivity->binding) {
       const std::size_t i = *r.sensitivity->binding;
       text += fmt::format("; alone, '{}' has least room: up to {}", r.graph->tasks[i].name,
-                          duration(*r.sensitivity->max_wcet[i]));
+                          duration_text(*r.sensitivity->max_wcet[i]));
     }
     text += "\n";
   }

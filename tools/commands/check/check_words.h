@@ -7,9 +7,6 @@
 
 namespace jarol::tools {
 
-/// Nanoseconds, as in 1ms.
-inline std::string duration(std::int64_t ns) { return duration_text(Duration(ns)); }
-
 /// Who runs when, and what that costs.
 std::string assumption(const Graph& graph);
 

@@ -9,14 +9,14 @@
 
 namespace jarol::tools {
 
-std::int64_t known_from(const analysis::Result& result) { return std::max(result.late->release, result.slices_from); }
+Duration known_from(const analysis::Result& result) { return std::max(result.late->release, result.slices_from); }
 
 namespace {
 
 // The window that explains the late activation: from what held it up to its end.
 struct Window {
-  std::int64_t begin = 0;
-  std::int64_t end = 0;
+  Duration begin{};
+  Duration end{};
   std::vector<std::size_t> tasks;  // that ran in it
 };
 
@@ -38,9 +38,10 @@ std::string gantt_text(const Graph& graph, const analysis::Result& result, std::
   if (!result.late || result.slices.empty()) return "";
   const analysis::DeadlineMiss& late = *result.late;
   const auto [begin, end, tasks] = window_of(result);
-  const std::int64_t first = begin, span = std::max<std::int64_t>(1, end - begin);
-  const auto column = [&](std::int64_t t) {
-    const auto at = static_cast<double>(t - first) / static_cast<double>(span) * static_cast<double>(width);
+  const Duration first = begin, span = std::max(Duration(1), end - begin);
+  const auto column = [&](Duration t) {
+    const auto at =
+        static_cast<double>((t - first).count()) / static_cast<double>(span.count()) * static_cast<double>(width);
     return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(width) - 1));
   };
   std::size_t name_width = 0;
@@ -50,7 +51,7 @@ std::string gantt_text(const Graph& graph, const analysis::Result& result, std::
     std::string line(width, '.');
     for (const analysis::Slice& s : result.slices) {
       if (s.task != t || s.end <= begin) continue;
-      for (std::size_t c = column(s.begin); c <= column(std::max(s.begin, s.end - 1)); ++c) line[c] = '#';
+      for (std::size_t c = column(s.begin); c <= column(std::max(s.begin, s.end - Duration(1))); ++c) line[c] = '#';
     }
     if (t == late.task) {
       for (std::size_t c = column(late.deadline); c < width; ++c)
@@ -60,7 +61,7 @@ std::string gantt_text(const Graph& graph, const analysis::Result& result, std::
     }
     text += fmt::format("    {:<{}} {}\n", graph.tasks[t].name, name_width, line);
   }
-  const std::string from = duration_text(Duration(begin)), to = duration_text(Duration(end));
+  const std::string from = duration_text(begin), to = duration_text(end);
   text += fmt::format("    {:<{}} {}{:>{}}\n", "", name_width, from, to, width > from.size() ? width - from.size() : 0);
   return text;
 }
@@ -88,7 +89,7 @@ class Chart {
 
   double bottom() const { return height_ - below; }
 
-  void box(std::size_t at, std::int64_t begin, std::int64_t end, const char* colour) {
+  void box(std::size_t at, Duration begin, Duration end, const char* colour) {
     if (end <= begin) return;
     svg_.element("rect", {{"x", fixed(x(begin), 2)},
                           {"y", fixed(y(at) + 4, 1)},
@@ -99,23 +100,23 @@ class Chart {
   }
 
   // across all rows, with a word below
-  void mark(std::int64_t at, const std::string& what, const char* colour) {
+  void mark(Duration at, const std::string& what, const char* colour) {
     line(x(at), top, bottom(), colour);
     svg_.element("text", {{"x", fixed(x(at), 2)}, {"y", fixed(bottom() + 16, 0)}, {"text-anchor", "middle"}}, what);
     svg_.line_end();
   }
 
   // within one row
-  void tick(std::size_t at, std::int64_t instant, const char* colour) {
+  void tick(std::size_t at, Duration instant, const char* colour) {
     line(x(instant), y(at) + 1, y(at) + bar + 7, colour);
   }
 
   std::string text() { return svg_.end().line_end().text(); }
 
  private:
-  double x(std::int64_t t) const {
-    const double span = static_cast<double>(std::max<std::int64_t>(1, window_.end - window_.begin));
-    return left + width * static_cast<double>(t - window_.begin) / span;
+  double x(Duration t) const {
+    const double span = static_cast<double>(std::max(Duration(1), window_.end - window_.begin).count());
+    return left + width * static_cast<double>((t - window_.begin).count()) / span;
   }
   static double y(std::size_t at) { return top + row * static_cast<double>(at); }
   void line(double at, double from, double to, const char* colour) {
@@ -141,41 +142,38 @@ std::string late_svg(const Graph& graph, const analysis::Result& result) {
   Chart chart(
       graph, window,
       fmt::format("{}: activation {} of {} is {}{} late", graph.name, late.activation, graph.tasks[late.task].name,
-                  late.ended ? "" : "more than ", duration_text(Duration(late.finish - late.deadline))));
+                  late.ended ? "" : "more than ", duration_text(late.finish - late.deadline)));
   for (std::size_t i = 0; i < window.tasks.size(); ++i) {
     for (const analysis::Slice& s : result.slices) {
       if (s.task != window.tasks[i] || s.end <= window.begin) continue;
-      const std::int64_t cut = s.task == late.task ? std::clamp(late.deadline, s.begin, s.end) : s.end;
+      const Duration cut = s.task == late.task ? std::clamp(late.deadline, s.begin, s.end) : s.end;
       chart.box(i, std::max(s.begin, window.begin), cut, on_time);
       chart.box(i, cut, s.end, too_late);
     }
   }
-  if (late.release >= window.begin)
-    chart.mark(late.release, "released " + duration_text(Duration(late.release)), release);
-  if (late.deadline >= window.begin)
-    chart.mark(late.deadline, "deadline " + duration_text(Duration(late.deadline)), too_late);
+  if (late.release >= window.begin) chart.mark(late.release, "released " + duration_text(late.release), release);
+  if (late.deadline >= window.begin) chart.mark(late.deadline, "deadline " + duration_text(late.deadline), too_late);
   return chart.text();
 }
 
 // Who runs when, with a green tick at each release and a red one at each deadline.
 std::string time_line_svg(const Graph& graph, const analysis::Result& result) {
   const analysis::TimeLine line = analysis::time_line_of(analysis::system_of(graph), result);
-  Window window{0, line.until, {}};
+  Window window{{}, line.until, {}};
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) window.tasks.push_back(i);
-  Chart chart(
-      graph, window,
-      fmt::format("{}: the first {}, each task as long as its wcet", graph.name, duration_text(Duration(line.until))));
+  Chart chart(graph, window,
+              fmt::format("{}: the first {}, each task as long as its wcet", graph.name, duration_text(line.until)));
   for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
     const Task& task = graph.tasks[i];
     for (const analysis::Slice& s : line.slices)
       if (s.task == i) chart.box(i, s.begin, s.end, on_time);
-    for (std::int64_t at = task.offset.count(); at < line.until; at += task.period.count()) {
+    for (Duration at = task.offset; at < line.until; at += task.period) {
       chart.tick(i, at, release);
-      if (at + task.deadline.count() <= line.until) chart.tick(i, at + task.deadline.count(), too_late);
+      if (at + task.deadline <= line.until) chart.tick(i, at + task.deadline, too_late);
     }
   }
-  chart.mark(0, "0s", "#9aa5b1");
-  chart.mark(line.until, duration_text(Duration(line.until)), "#9aa5b1");
+  chart.mark({}, "0s", "#9aa5b1");
+  chart.mark(line.until, duration_text(line.until), "#9aa5b1");
   return chart.text();
 }
 

@@ -10,7 +10,7 @@ namespace jarol::tools {
 
 /// From where on all pieces are known that ran before the late activation ended: its release, or later, since only so
 /// many are kept.
-std::int64_t known_from(const analysis::Result& result);
+Duration known_from(const analysis::Result& result);
 
 /// The window around the late activation: one line per task that ran in it, `#` while it ran, `!` past the deadline of
 /// the late one, `^` at its release and `|` at its deadline, where these are known. `width` columns.

@@ -22,9 +22,9 @@ nlohmann::ordered_json schedule_json(const Graph& graph) {
   const analysis::Result result = analysis::check(graph);
   const analysis::TimeLine line = analysis::time_line_of(system, result);
   Json slices = Json::array();
-  for (const analysis::Slice& s : line.slices) slices.push_back({s.task, s.activation, s.begin, s.end});
-  return {{"verdict", word_of(result.verdict)}, {"reason", result.reason}, {"utilisation", result.utilisation},
-          {"cores", graph.platform.cores},      {"until_ns", line.until},  {"slices", std::move(slices)}};
+  for (const analysis::Slice& s : line.slices) slices.push_back({s.task, s.activation, s.begin.count(), s.end.count()});
+  return {{"verdict", word_of(result.verdict)}, {"reason", result.reason},        {"utilisation", result.utilisation},
+          {"cores", graph.platform.cores},      {"until_ns", line.until.count()}, {"slices", std::move(slices)}};
 }
 
 nlohmann::ordered_json tasks_json(const Graph& graph) {

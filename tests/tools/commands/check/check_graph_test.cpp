@@ -104,8 +104,8 @@ void check_verdict(const CheckReport& r) {
     if (r.result.core[i]) CHECK(static_cast<std::int64_t>(*r.result.core[i]) < r.graph->platform.cores);
     if (r.result.core[i] && t.core) CHECK(static_cast<std::int64_t>(*r.result.core[i]) == *t.core);
     if (!r.result.response[i]) continue;
-    CHECK(*r.result.response[i] >= t.wcet->count());
-    if (r.result.verdict == Verdict::schedulable) CHECK(*r.result.response[i] <= t.deadline.count());
+    CHECK(*r.result.response[i] >= *t.wcet);
+    if (r.result.verdict == Verdict::schedulable) CHECK(*r.result.response[i] <= t.deadline);
   }
   if (r.result.late) {
     CHECK(r.result.verdict != Verdict::schedulable);
@@ -124,9 +124,9 @@ void check_time_line(const CheckReport& r) {
   const auto line = jarol::analysis::time_line_of(jarol::analysis::system_of(*r.graph), r.result);
   for (const jarol::analysis::Slice& s : line.slices) {
     const Task& t = r.graph->tasks[s.task];
-    const std::int64_t release = t.offset.count() + s.activation * t.period.count();
+    const Duration release = t.offset + s.activation * t.period;
     CHECK(s.begin >= release);
-    CHECK(s.end <= release + t.deadline.count());
+    CHECK(s.end <= release + t.deadline);
     if (r.result.response[s.task]) CHECK(s.end - release <= *r.result.response[s.task]);
   }
   const std::string picture = gantt_svg(*r.graph, r.result);
