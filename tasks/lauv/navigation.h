@@ -56,8 +56,8 @@ struct LauvNavigation {
           field<&P::drift>("m/s^0.5", "deviation of the way reckoned, after 1 s"),
           field<&P::current_change>("m/s^1.5", "deviation by which the current changes in 1 s"),
           field<&P::current>("m/s", "deviation of the current before anything is known of it"),
-          field<&P::fix_error>("m", "deviation of GPS, per axis"),
-          field<&P::range_error>("m", "deviation of the range to a beacon"),
+          field<&P::fix_error>("m", "deviation of GPS, per axis").in(0.001, 1000),
+          field<&P::range_error>("m", "deviation of the range to a beacon").in(0.001, 1000),
           field<&P::gate>("", "a fix or range that is off by more deviations is left out"),
           field<&P::restart>("", "fixes left out in a row, after which the next one counts"));
     }

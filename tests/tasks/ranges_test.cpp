@@ -30,9 +30,11 @@ TEST_SUITE("tasks/ranges") {
     });
   }
 
-  TEST_CASE("navigation knows water and air, and asks for a fix at least") {
+  TEST_CASE("navigation knows water and air, asks for a fix at least, and has no place without an error") {
     check_refused<LauvNavigation::Param>({
         {{"surface_fixes"}, "an int64 from 1 to 1000", "0"},
+        {{"fix_error"}, "a double [m] from 0.001 to 1000", "0"},
+        {{"range_error"}, "a double [m] from 0.001 to 1000", "0"},
         {{"water", "density"}, "a double [kg/m^3] from 500 to 2000", "1.025"},
         {{"water", "air_pressure"}, "a double [hPa] from 0 to 2000", "101325"},
     });
