@@ -3,7 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "runtime/record/recording.h"
+#include "graph/language/quantities.h"
+#include "runtime/record/recorded_run.h"
 #include "tests/tools/reports.h"
 #include "tests/tools/run_command.h"
 
@@ -14,7 +15,9 @@ using command::TemporaryFolder;
 }  // namespace
 
 TEST_SUITE("tools/log_damaged") {
-  TEST_CASE("of a recording with a damaged chunk each command shows what there is before, says so, and exits with 1") {
+  TEST_CASE(
+      "of a recording with a damaged chunk each command shows what there is before, says so, and exits with 1, a "
+      "replay with 3") {
     const TemporaryFolder folder;
     const std::string file = folder / "r.mcap", graph = folder.write("g.yaml", R"(graph: g
 tasks: {count: {type: Counter, period: 1ms}}
@@ -48,6 +51,11 @@ tasks: {count: {type: Counter, period: 1ms}}
     CHECK(nlohmann::json::parse(content(folder / "out"))["otherData"]["graph"] == "g");
     CHECK(errors("report " + damaged + " -o " + (folder / "r.html")) == on_the_way);
     CHECK(has(content(folder / "r.html"), "</html>"));
+    const auto replay = command::run_jarol("replay " + damaged, "2>&1 >/dev/null");
+    CHECK(replay.exit_code == 3);
+    CHECK(replay.output == "error: '" + damaged + "' is damaged at byte " + at + ", before " +
+                               jarol::seconds_text(jarol::RecordedRun(damaged).covered()) +
+                               " s it is whole; how the run ended is not known\n");
   }
 
   TEST_CASE("of recordings that were joined the first is shown, and that more follows is said") {

@@ -48,8 +48,15 @@ struct ReplayArguments {
   RunFileArguments files;
 };
 
+// Of a recording without its run's end; else nothing.
+std::string why_unknown(const RecordedRun& log, const std::string& file) {
+  if (log.end()) return "";
+  return fmt::format("{}, before {} s it is whole; how the run ended is not known",
+                     break_text(log.recording(), is_damaged(file)), seconds_text(log.covered()));
+}
+
 std::string text_of(const Comparison& comparison, const Report& report, const RecordedRun& log,
-                    const Differences& differences, bool is_other_text, bool of_some) {
+                    const Differences& differences, const std::string& file, bool is_other_text, bool of_some) {
   if (comparison.interrupted) return "";
   const std::string run = "the run on the " + log.header().clock + " clock";
   std::string text;
@@ -77,9 +84,7 @@ std::string text_of(const Comparison& comparison, const Report& report, const Re
           "              a fault that stops it did not happen there; the replay went on to the end of the recording\n";
     if (is_other_text) text += "              the file of the graph is not what it was\n";
   }
-  if (!log.end())
-    text += fmt::format("  log         breaks off {}, before {} s it is whole; how the run ended is not known\n",
-                        printable(log.recording().text_of_break()), seconds_text(log.covered()));
+  if (const std::string why = why_unknown(log, file); !why.empty()) text += "  log         " + why + "\n";
   return text;
 }
 
@@ -127,7 +132,7 @@ void print(const ReplayArguments& options, const Replayer& replayer, const Repla
                            replayer.misses());
   if (written) std::cout << to_text(options.files);
   if (!replayer.judges()) std::cout << "  expected    not judged, as the replay begins on the way\n";
-  std::cout << text_of(comparison, run.report, log, outcome.differences, replayer.is_other_text(),
+  std::cout << text_of(comparison, run.report, log, outcome.differences, options.log, replayer.is_other_text(),
                        !options.only.empty());
   if (options.file.empty())
     for (const std::string& file : changed_files(log.recording()))
@@ -176,6 +181,10 @@ int replay(const ReplayArguments& options) {
   print(options, replayer, outcome, log, unwritten.empty());
   std::cerr << failures_text(outcome.run.verdict);
   if (!unwritten.empty()) std::cerr << "error: " << unwritten << "\n";
+  const Comparison& comparison = outcome.comparison;
+  if (const std::string why = why_unknown(log, options.log);
+      comparison.evidence == Evidence::unknown && !comparison.interrupted && !why.empty())
+    std::cerr << "error: '" << printable(options.log) << "' " << why << "\n";
   std::cerr << errors_of(run_end, replayer.now());
   const int exit_code = exit_code_of_replay(outcome, unwritten.empty());
   if (run_end.hangs) end_at_once(exit_code);
@@ -193,7 +202,7 @@ void add_replay(CommandLine& line, int& exit_code) {
       "came from outside and what was late then. Every recorded value is compared: it is the same to the bit, or the\n"
       "first difference is shown, and of each signal by how much it differs.\n"
       "Exit code: 0 the same, 1 diverged, or the same and not what 'expect' says or too much left out by faults,\n"
-      "2 bad input, as a recording with anything after its end, 3 one that breaks off,\n"
+      "2 bad input, as a recording with anything after its end, 3 one that breaks off or is damaged,\n"
       "129, 130, 143 ended by SIGHUP, SIGINT (Ctrl-C), SIGTERM");
   command->add_option("LOG", options->log, "The recording of a run")->file({"mcap"})->required();
   command

@@ -12,14 +12,22 @@
 
 namespace jarol::tools {
 
-/// To stderr, where the recording of that name is not whole. The exit code of who shows what there is: one that was
-/// brought to its end and is not whole is damaged; else its run could not write on.
+/// Of the recording of that name, which is not whole: it was brought to its end, by its index, and is damaged; else its
+/// run could not write on.
+inline bool is_damaged(const std::string& name) { return Recording(name).is_whole(); }
+
+/// Of one that is not whole, as in "breaks off at byte 100" or "is damaged at byte 100".
+inline std::string break_text(const Recording& recording, bool damaged) {
+  return (damaged ? "is damaged " : "breaks off ") + printable(recording.text_of_break());
+}
+
+/// To stderr, where the recording of that name is not whole. The exit code of who shows what there is.
 inline int note_break(const Recording& recording, const std::string& name) {
   if (recording.is_whole()) return exit_good;
-  const bool has_end = Recording(name).is_whole();  // by its index
-  std::cerr << (has_end ? "error: '" : "note: '") << printable(name) << (has_end ? "' is damaged " : "' breaks off ")
-            << printable(recording.text_of_break()) << ": this is what there is before\n";
-  return has_end ? exit_negative : exit_good;
+  const bool damaged = is_damaged(name);
+  std::cerr << (damaged ? "error: '" : "note: '") << printable(name) << "' " << break_text(recording, damaged)
+            << ": this is what there is before\n";
+  return damaged ? exit_negative : exit_good;
 }
 
 /// To stderr, where something follows its end, as another recording does that was joined to it.
