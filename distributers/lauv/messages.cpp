@@ -13,6 +13,12 @@ std::string_view name_of(tasks::Alarm alarm) {
   return "";
 }
 
+std::string_view meaning_of(tasks::FinCheck fins) {
+  for (const auto& e : enumerators(fins))
+    if (e.value == fins) return e.meaning;
+  return "";
+}
+
 double unix_time() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }

@@ -19,6 +19,7 @@ inline constexpr std::uint8_t daemon_entity = 0, operator_entity = 1, supervisor
                               plan_entity = 4;
 
 std::string_view name_of(tasks::Alarm alarm);
+std::string_view meaning_of(tasks::FinCheck fins);
 
 /// Now, in s since 1970: for the eyes of who reads it, never for what a run does.
 double unix_time();

@@ -145,6 +145,7 @@ class LauvOperator {
   void log_book_control(const imc::LogBookControl& control, const From& from);
   tasks::Contact contact();
   void send_report(const tasks::VehicleReport& report, messages::Receiver& system);
+  void note_fins(tasks::FinCheck fins);
   void send_motion(const tasks::Motion& motion, messages::Receiver& system);
   void send_stream(const tasks::Stream& stream, messages::Receiver& system);
   void note_progress(const tasks::Progress& progress, messages::Receiver& system);
@@ -219,6 +220,7 @@ class LauvOperator {
   bool has_commanded_ = true;  // who has the link now; else the vehicle goes by what another one has commanded
   std::uint32_t stops_ = 0;    // demanded by the operator
   tasks::Alarm alarm_ = tasks::Alarm::none;
+  tasks::FinCheck fins_ = tasks::FinCheck::checked;
   double heading_ = 0;                          // of the vehicle, as reported last
   double depth_ = 0;                            // likewise
   double wanted_depth_ = 0, wanted_speed_ = 0;  // by the last DesiredZ and DesiredSpeed, whether it goes there or not

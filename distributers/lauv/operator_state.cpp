@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "distributers/lauv/messages.h"
 #include "distributers/lauv/operator.h"
@@ -94,6 +95,9 @@ imc::EntityState LauvOperator::state_of(std::uint8_t entity) const {
   if (entity == supervisor_entity && alarm_ != tasks::Alarm::none) {
     state.state = State::FAILURE;
     state.description = name_of(alarm_);
+  } else if (entity == supervisor_entity && fins_ == tasks::FinCheck::unchecked) {
+    state.state = State::FAULT;
+    state.description = meaning_of(fins_);
   } else if (entity == operator_entity && mode_ == Mode::error) {
     state.state = State::ERROR;
     state.description = "abort";
@@ -210,6 +214,7 @@ void LauvOperator::send_report(const tasks::VehicleReport& report, messages::Rec
     end_plan("the vehicle comes up: " + std::string(name_of(alarm_)));
     stop();
   }
+  note_fins(report.fins);
   heading_ = report.heading;
   depth_ = report.depth;
   if (motion_sent_) return;
@@ -219,6 +224,15 @@ void LauvOperator::send_report(const tasks::VehicleReport& report, messages::Rec
   motion.psi = report.heading;
   motion.u = report.speed;
   send_state(motion, system);
+}
+
+// Once when it begins and once when it is over.
+void LauvOperator::note_fins(tasks::FinCheck fins) {
+  if (std::exchange(fins_, fins) == fins) return;
+  const bool checked = fins == tasks::FinCheck::checked;
+  log(checked ? imc::LogBookEntry::Type::INFO : imc::LogBookEntry::Type::WARNING,
+      checked ? "fins are checked again, as their servos report" : std::string(meaning_of(fins)));
+  answer(state_of(supervisor_entity), supervisor_entity);
 }
 
 void LauvOperator::send_motion(const tasks::Motion& motion, messages::Receiver& system) {

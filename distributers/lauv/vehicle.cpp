@@ -174,14 +174,18 @@ void LauvVehicle::conductivity(const imc::Conductivity& m, const messages::Messa
   note(&Instruments::conductivity, parameters_.conductivity, from, m.value);
 }
 
-// Of the hull only by the label of who sends it: a message of no entity is of the water.
+// Of the hull only by the label of who sends it: a message of no entity is of the water, and that of an entity whose
+// label is not known yet may be of the hull.
 void LauvVehicle::temperature(const imc::Temperature& m, const messages::MessageRef& from) {
+  const std::uint8_t sender = Entities::sender_of(from);
+  bool may_be_of_hull = false;
   for (std::size_t k = 0; k < tasks::hull_sensors; ++k) {
     const LauvInstrument& sensor = parameters_.*hull_parameters[k];
-    if (Entities::sender_of(from) != Entities::nobody && is(sensor, from))
-      return note(tasks::hull_readings[k], sensor, from, m.value);
+    if (sender == Entities::nobody || !sensor.fitted) continue;
+    if (is(sensor, from)) return note(tasks::hull_readings[k], sensor, from, m.value);
+    may_be_of_hull = !entities_.has_label(sender);
   }
-  note(&Instruments::water_temperature, parameters_.water_temperature, from, m.value);
+  if (!may_be_of_hull) note(&Instruments::water_temperature, parameters_.water_temperature, from, m.value);
 }
 
 void LauvVehicle::distance(const imc::Distance& m, const messages::MessageRef& from) {

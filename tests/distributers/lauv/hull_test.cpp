@@ -110,6 +110,37 @@ TEST_SUITE("distributers/lauv_hull") {
     CHECK((i.water_temperature.value == 12 && i.water_temperature.count == 1));
   }
 
+  TEST_CASE("a temperature of an entity whose label is not known yet is taken for none, and its label is asked for") {
+    Named vehicle;
+    vehicle.temperature(5, 20);
+    vehicle.temperature(9, 12);
+    CHECK(are(hull_of(vehicle.instruments()), {}));
+    CHECK(vehicle.instruments().water_temperature.count == 0);
+    Asked asked;
+    vehicle.adapter.reach(std::chrono::milliseconds(50), asked);
+    CHECK(asked.count == 1);
+    imc::EntityList list;
+    list.list = "Hull Temperature 0=5;CTD=9";
+    vehicle.adapter.receive(messages::refer_to(list));
+    vehicle.temperature(5, 21);
+    vehicle.temperature(9, 13);
+    const tasks::Instruments i = vehicle.instruments();
+    CHECK(are(hull_of(i), {{{21, 1}, {}, {}, {}}}));
+    CHECK((i.water_temperature.value == 13 && i.water_temperature.count == 1));
+  }
+
+  TEST_CASE(
+      "of a vehicle without thermometers in its hull a temperature is of the water, whatever its entity's label") {
+    LauvVehicleParameters parameters;
+    for (LauvInstrument* hull : {&parameters.hull_temperature, &parameters.hull_temperature1,
+                                 &parameters.hull_temperature2, &parameters.hull_temperature3})
+      hull->fitted = false;
+    Named vehicle(parameters);
+    vehicle.temperature(9, 12);
+    const tasks::Reading water = vehicle.instruments().water_temperature;
+    CHECK((water.value == 12 && water.count == 1));
+  }
+
   TEST_CASE("a vehicle whose labels are not known is asked for them") {
     Named vehicle(of_two());
     Asked asked;
