@@ -128,9 +128,10 @@ bool Guardian::end() {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-void Guardian::LinkHolder::hold(int fd, const Address& peer) {
-  const auto* const address = reinterpret_cast<const std::byte*>(peer.get());
-  say(guardian_.socket_.get(), {Word::hold, link_}, {address, peer.size()}, fd);
+void Guardian::LinkHolder::hold(int fd, const std::vector<Address>& peers) {
+  std::vector<sockaddr_storage> all(peers.size());
+  for (std::size_t i = 0; i < peers.size(); ++i) std::memcpy(&all[i], peers[i].get(), peers[i].size());
+  say(guardian_.socket_.get(), {Word::hold, link_}, std::as_bytes(std::span(all)), fd);
 }
 
 void Guardian::LinkHolder::let_go() { say(guardian_.socket_.get(), {Word::let_go, link_}); }

@@ -56,7 +56,7 @@ class Guardian {
   class LinkHolder : public Holder {
    public:
     LinkHolder(const Guardian& guardian, std::uint32_t link) : guardian_(guardian), link_(link) {}
-    void hold(int fd, const Address& peer) override;
+    void hold(int fd, const std::vector<Address>& peers) override;
     void let_go() override;
 
    private:

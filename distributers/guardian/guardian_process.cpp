@@ -1,6 +1,7 @@
 #include "distributers/guardian/guardian_process.h"
 
 #include <fcntl.h>
+#include <netinet/in.h>
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -78,9 +79,16 @@ class Watch {
     if (word == Word::key) seal(wards_[link], heard.bytes);
     if (word == Word::let_go) wards_[link].let_go();
     if (word != Word::hold) return;
-    sockaddr_storage peer{};
-    std::memcpy(&peer, heard.bytes.data(), std::min(heard.bytes.size(), sizeof peer));
-    wards_[link].hold(std::move(heard.fd), Address::of(peer, static_cast<socklen_t>(heard.bytes.size())));
+    wards_[link].hold(std::move(heard.fd), addresses_in(heard.bytes));
+  }
+
+  static std::vector<Address> addresses_in(std::span<const std::byte> bytes) {
+    std::vector<Address> all;
+    for (sockaddr_storage one; bytes.size() >= sizeof one; bytes = bytes.subspan(sizeof one)) {
+      std::memcpy(&one, bytes.data(), sizeof one);
+      all.push_back(Address::of(one, one.ss_family == AF_INET6 ? sizeof(sockaddr_in6) : sizeof(sockaddr_in)));
+    }
+    return all;
   }
 
   // Each link is a ward, so that their numbers are those of the program.

@@ -7,16 +7,16 @@
 
 namespace jarol::distributers {
 
-void Ward::hold(Descriptor fd, const Address& peer) {
+void Ward::hold(Descriptor fd, std::vector<Address> peers) {
   fd_ = std::move(fd);
-  peer_ = peer;
+  peers_ = std::move(peers);
   int type = 0;
   socklen_t size = sizeof type;
   datagrams_ = getsockopt(fd_.get(), SOL_SOCKET, SO_TYPE, &type, &size) == 0 && type == SOCK_DGRAM;
 }
 
 void Ward::send() {
-  if (!fd_ || !rest_.empty() || (datagrams_ && !peer_)) return;
+  if (!fd_ || !rest_.empty()) return;
   for (std::vector<std::byte>& packet : packets_) {
     stamp(stamping_, packet);
     std::span<const std::byte> bytes = packet;
@@ -24,12 +24,18 @@ void Ward::send() {
       seal_->seal(bytes, sealed_);
       bytes = sealed_;
     }
-    if (!datagrams_)
+    if (datagrams_) {
+      send_to_each(bytes);
+    } else {
       write(bytes);
-    else if (sendto(fd_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL, peer_.get(), peer_.size()) < 0)
-      continue;
-    ++sent_;
+      ++sent_;
+    }
   }
+}
+
+void Ward::send_to_each(std::span<const std::byte> datagram) {
+  for (const Address& peer : peers_)
+    if (sendto(fd_.get(), datagram.data(), datagram.size(), MSG_NOSIGNAL, peer.get(), peer.size()) >= 0) ++sent_;
 }
 
 bool Ward::send_rest() {

@@ -20,10 +20,10 @@ class Ward {
 
   void add(std::span<const std::byte> packet) { packets_.emplace_back(packet.begin(), packet.end()); }
   void seal_with(const GuardianKey& key) { seal_.emplace(key); }
-  void hold(Descriptor fd, const Address& peer);
+  void hold(Descriptor fd, std::vector<Address> peers);
   void let_go() { fd_.close(); }
 
-  /// All packets once. A stream that has no room for them takes them later.
+  /// All packets once, datagrams to each peer. A stream that has no room for them takes them later.
   void send();
   /// What a stream had no room for, as much as there is now; false: nothing is left.
   bool send_rest();
@@ -33,6 +33,7 @@ class Ward {
 
  private:
   void write(std::span<const std::byte> bytes);
+  void send_to_each(std::span<const std::byte> datagram);
 
   Stamping stamping_;
   std::string text_;
@@ -40,7 +41,7 @@ class Ward {
   std::optional<GuardianSeal> seal_;
   std::vector<std::byte> sealed_;
   Descriptor fd_;
-  Address peer_;
+  std::vector<Address> peers_;
   bool datagrams_ = false;
   std::vector<std::byte> rest_;
   std::uint64_t sent_ = 0;

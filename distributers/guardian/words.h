@@ -17,7 +17,7 @@ enum class Word : std::uint32_t {
   packet,   // of a link: one of those that bring its system to rest; bytes: the packet
   key,      // of a link whose packets are sealed; bytes: GuardianKey
   ready,    // all that was said is understood: asked by the program, answered by the guardian; bytes: Urgency
-  hold,     // of a link: its way to the peer, a descriptor; bytes: the peer's address, or none
+  hold,     // of a link: its way to the peers, a descriptor; bytes: a sockaddr_storage for each
   let_go,   // of a link: it has no way any more
   armed,    // from now on the end of the program is a crash, unless it says `closed` before
   crashed,  // the program is about to end

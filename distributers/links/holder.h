@@ -1,5 +1,7 @@
-// Who else holds a link's way to its peer.
+// Who else holds a link's way to its peers.
 #pragma once
+
+#include <vector>
 
 #include "distributers/links/address.h"
 
@@ -9,9 +11,9 @@ namespace jarol::distributers {
 class Holder {
  public:
   virtual ~Holder() = default;
-  /// From now on this is the way; datagrams go to that peer, or nowhere while there is none. Makes a duplicate of the
-  /// descriptor, which stays the transport's.
-  virtual void hold(int fd, const Address& peer) = 0;
+  /// From now on this is the way; datagrams go to each of these peers, or nowhere while there is none. Makes a
+  /// duplicate of the descriptor, which stays the transport's.
+  virtual void hold(int fd, const std::vector<Address>& peers) = 0;
   /// There is no way any more; the transport closes its descriptor after this.
   virtual void let_go() = 0;
 };

@@ -124,7 +124,16 @@ void UdpTransport::associate(std::size_t place, const Address& peer) {
   peers_[place].own.socket = connect_beside(peer);
   peers_[place].address = peer;
   ++counts.connected;
-  if (holder != nullptr) holder->hold(door_.socket.get(), peer);
+  show_peers();
+}
+
+// Likewise: to the holder.
+void UdpTransport::show_peers() {
+  if (holder == nullptr) return;
+  std::vector<Address> all;
+  for (const Peer& peer : peers_)
+    if (peer.address) all.push_back(peer.address);
+  holder->hold(door_.socket.get(), all);
 }
 
 // Likewise.
@@ -215,9 +224,7 @@ void UdpTransport::leave_closed_port(std::size_t place, ByteSink& sink, std::spa
   ownership_.gone(place);
   const std::lock_guard lock(peers_mutex_);
   forget(peers_[place]);
-  if (holder == nullptr) return;
-  const auto other = std::find_if(peers_.begin(), peers_.end(), [](const Peer& peer) { return bool(peer.address); });
-  holder->hold(door_.socket.get(), other == peers_.end() ? Address{} : other->address);
+  show_peers();
 }
 
 // To all; true: to one at least.

@@ -63,6 +63,7 @@ class UdpTransport : public Transport {
   Descriptor connect_beside(const Address& peer);
   void associate(std::size_t place, const Address& peer);
   void forget(Peer& peer);
+  void show_peers();
   bool have_sockets() const;
   bool receive_one(Receiving& from, ByteSink& sink, std::span<std::byte> room);
   void take(std::span<const std::byte> bytes, const Address& sender, ByteSink& sink);

@@ -3,14 +3,17 @@
 #include <poll.h>
 #include <sys/socket.h>
 
+#include <chrono>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "distributers/guardian/guardian.h"
 #include "distributers/links/descriptor.h"
 #include "distributers/messages/imc.h"
 #include "distributers/messages/javiator.h"
+#include "tests/distributers/links/open_link.h"
 
 namespace {
 using namespace jarol;
@@ -45,6 +48,24 @@ std::vector<std::byte> bytes_of(const std::string& text) {
   return {bytes.begin(), bytes.end()};
 }
 
+// Takes whoever speaks for a peer.
+struct Believing : distributers::ByteSink {
+  bool take(std::span<const std::byte>, std::uint32_t) override { return true; }
+  void begin_stream() override {}
+};
+
+constexpr const char* probe = "?";
+
+// Its datagrams but the probes, in one.
+std::string heard_by(const tests::Speaker& speaker) {
+  std::string all;
+  for (auto bytes = speaker.heard(); !bytes.empty(); bytes = speaker.heard()) {
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text != probe) all += text;
+  }
+  return all;
+}
+
 std::string times(int count, const std::string& text) {
   std::string all;
   for (int i = 0; i < count; ++i) all += text;
@@ -72,5 +93,36 @@ TEST_SUITE("tools/guardian_links") {
     CHECK(ways[0].all() == times(5, "brake"));
     CHECK(ways[1].all() == times(5, "motors off"));
     CHECK(ways[2].all() == times(5, "dark"));
+  }
+
+  TEST_CASE("a link with several peers sends to each that it knows, and to none that has left") {
+    const std::vector<std::vector<std::byte>> packets{bytes_of("motors off, "), bytes_of("lamps off, ")};
+    auto guardian = std::make_unique<distributers::Guardian>(JAROL_COMMAND);
+    distributers::Holder* const holder = guardian->add(messages::javiator::message_set(), "consoles", packets);
+    guardian->await_ready();
+    distributers::UdpTransport consoles(tests::any, {}, {}, std::chrono::hours(1), 3);
+    consoles.holder = holder;
+    consoles.open();
+    distributers::Interrupter interrupter;
+    Believing sink;
+    std::thread receiving([&] { consoles.receive(interrupter, sink); });
+    const auto address = tests::any.with_port(consoles.port());
+    const tests::Speaker one(address, SOCK_DGRAM), other(address, SOCK_DGRAM);
+    {
+      const tests::Speaker leaves(address, SOCK_DGRAM);
+      for (const tests::Speaker* each : {&one, &other, &leaves}) each->say(1);
+      REQUIRE(tests::wait_for([&] { return consoles.counts.connected == 3; }));
+    }
+    REQUIRE(tests::wait_for([&] {
+      consoles.send(bytes_of(probe));
+      return consoles.counts.closed == 1;
+    }));
+    interrupter.interrupt();
+    receiving.join();
+    consoles.holder = nullptr;
+    guardian->arm();
+    guardian.reset();  // as if the program were gone
+    CHECK(heard_by(one) == times(5, "motors off, lamps off, "));
+    CHECK(heard_by(other) == times(5, "motors off, lamps off, "));
   }
 }

@@ -226,7 +226,7 @@ TEST_SUITE("distributers/links/stream") {
     const std::string name = ptsname(other_end.get());
     // as the guardian does
     struct Twin : Holder {
-      void hold(int fd, const Address&) override { held = Descriptor(dup(fd)); }
+      void hold(int fd, const std::vector<Address>&) override { held = Descriptor(dup(fd)); }
       void let_go() override {}
       Descriptor held;
     } twin;
