@@ -45,4 +45,19 @@ std::vector<Problem> off_grid(const Graph& graph, std::size_t distributer, Durat
   return found;
 }
 
+void report_thrown(const std::string& type, const Location& where, const std::string& subject, Problems& problems) {
+  const auto report = [&](const std::string& text) {
+    problems.add(where, subject + " can't be made: link type '" + type + "': " + text);
+  };
+  try {
+    throw;
+  } catch (const SpecError&) { throw; } catch (const InputError&) {
+    throw;
+  } catch (const Unfinished&) { throw; } catch (const std::system_error&) {
+    throw;
+  } catch (const std::bad_alloc&) { throw; } catch (const std::exception& error) {
+    report(error.what());
+  } catch (...) { report("it throws what is no std::exception"); }
+}
+
 }  // namespace jarol::distributers

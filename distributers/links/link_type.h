@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -74,17 +75,32 @@ std::vector<Key<S>> with_type_key(std::string text, std::vector<Key<S>> keys) {
   return keys;
 }
 
+/// In a catch block around the code of a link type, which may be a plugin's: what has no type of its own becomes a
+/// problem of that place; the rest is thrown again.
+void report_thrown(const std::string& type, const Location& where, const std::string& subject, Problems& problems);
+
+/// What `make` makes by the code of a link type; what that throws is reported, and then there is none.
+template <class Make>
+std::invoke_result_t<Make> make_by_type(const std::string& type, const Location& where, const std::string& subject,
+                                        Problems& problems, const Make& make) {
+  try {
+    return make();
+  } catch (...) { report_thrown(type, where, subject, problems); }
+  return nullptr;
+}
+
 /// A link type whose keys are read into an S; `make` gets it with what could be read.
 template <class S, class Make>
 LinkType link_type(std::string name, std::string summary, std::vector<Key<S>> own_keys, Make make) {
   LinkType type{std::move(name), summary};
   const std::vector<Key<S>> keys = with_type_key(std::move(summary), std::move(own_keys));
   type.keys.assign(keys.begin(), keys.end());
-  type.make_external_system = [keys, make](const LinkRequest& request,
-                                           Problems& problems) -> std::unique_ptr<ExternalSystem> {
+  type.make_external_system = [name = type.name, keys, make](const LinkRequest& request,
+                                                             Problems& problems) -> std::unique_ptr<ExternalSystem> {
     S spec;
     read_keys(request.yaml(), keys, spec, request.subject(), problems);
-    return make(spec, request, problems);
+    return make_by_type(name, request.yaml().where, request.subject(), problems,
+                        [&]() -> std::unique_ptr<ExternalSystem> { return make(spec, request, problems); });
   };
   return type;
 }

@@ -5,6 +5,7 @@
 #include "distributers/links/lockstep_frames.h"
 #include "distributers/links/tcp.h"
 #include "graph/language/quantities.h"
+#include "graph/text/errors.h"
 
 namespace jarol::distributers {
 namespace {
@@ -131,7 +132,8 @@ class Served {
   Served(FrameStream& stream, const LockstepService& service)
       : stream_(stream), service_(service), putter_(service.set, stream), taker_(service.set) {}
   ~Served() {
-    const auto mishap = vehicle_ ? vehicle_->mishap() : std::nullopt;
+    std::optional<vehicles::Mishap> mishap;
+    with_vehicle([&] { mishap = vehicle_ ? vehicle_->mishap() : std::nullopt; });
     if (mishap) service_.mishap(*mishap, stream_.who());
   }
   Served(const Served&) = delete;
@@ -142,35 +144,76 @@ class Served {
     vehicle_ = service_.make(number(frame, 0));
   }
 
+  /// The next frame. Throws FrameEnd when the runner has gone.
+  void read_and_obey() {
+    try {
+      obey(stream_.read());
+    } catch (const FrameEnd&) {
+      require_works();
+      throw;
+    }
+  }
+
+ private:
   void obey(const FrameStream::Frame& frame) {
     if (++frames_ > max_frames)
       throw FrameError(stream_.who() + " has sent " + std::to_string(max_frames) +
                        " frames without a look at the sensors");
     switch (frame.kind) {
-      case FrameKind::message: return vehicle_->accept(taker_.message(frame));
+      case FrameKind::message: return accept(taker_.message(frame));
       case FrameKind::step: return step();
       case FrameKind::sense: return sense();
       default: throw_unfit(stream_);
     }
   }
 
- private:
+  void accept(messages::MessageRef command) {
+    with_vehicle([&] { vehicle_->accept(command); });
+  }
+
   void step() {
     ++steps_;
+    if (no_state_) return;
     try {
-      if (!no_state_) vehicle_->step();
+      with_vehicle([&] { vehicle_->step(); });
     } catch (const vehicles::NoState& error) { no_state_ = error.what(); }
   }
 
   void sense() {
     frames_ = 0;
-    if (no_state_) {
+    std::optional<vehicles::Mishap> mishap;
+    if (!no_state_)
+      with_vehicle([&] {
+        vehicle_->sense(putter_);
+        mishap = vehicle_->mishap();
+      });
+    if (no_state_)
       stream_.put(FrameKind::no_state, std::as_bytes(std::span(*no_state_)));
-    } else {
-      vehicle_->sense(putter_);
-      stream_.put(FrameKind::sensed, end_of_answer(steps_, vehicle_->mishap()));
-    }
+    else
+      stream_.put(FrameKind::sensed, end_of_answer(steps_, mishap));
     stream_.flush();
+    require_works();
+  }
+
+  // What else a plugin's vehicle throws than NoState is not this program's; the runner reads it where it looks at the
+  // sensors.
+  template <class Work>
+  void with_vehicle(const Work& work) {
+    if (failed_) return;
+    try {
+      work();
+    } catch (const FrameError&) { throw; } catch (const vehicles::NoState&) {
+      throw;
+    } catch (const std::exception& error) { fail(error.what()); } catch (...) {
+      fail("it throws what is no std::exception");
+    }
+  }
+  void fail(const std::string& text) {
+    failed_ = true;
+    no_state_ = "vehicle '" + service_.name + "': " + text;
+  }
+  void require_works() const {
+    if (failed_) throw Unfinished(*no_state_);
   }
 
   FrameStream& stream_;
@@ -178,9 +221,10 @@ class Served {
   Putter putter_;
   Taker taker_;
   std::unique_ptr<vehicles::Vehicle> vehicle_;
-  std::optional<std::string> no_state_;
-  std::uint64_t steps_ = 0;  // since the start
-  int frames_ = 0;           // since the last look at the sensors
+  std::optional<std::string> no_state_;  // why it can't be stepped any more
+  bool failed_ = false;                  // that is what it threw
+  std::uint64_t steps_ = 0;              // since the start
+  int frames_ = 0;                       // since the last look at the sensors
 };
 
 // One that was greeted; `callers` may be null.
@@ -198,7 +242,7 @@ void serve(FrameStream& stream, const LockstepService& service, const Interrupte
     const auto ready = stream.wait(interrupter, door, std::chrono::milliseconds(-1));
     if (ready.interrupted) return;
     if (ready.one) {
-      served.obey(stream.read());
+      served.read_and_obey();
       heard = Clock::now();
       continue;
     }

@@ -13,6 +13,7 @@ namespace jarol::distributers {
 
 struct LockstepService {
   const messages::MessageSet& set;
+  std::string name;  // of the vehicle's class
   /// A vehicle at its start, with that seed.
   std::function<std::unique_ptr<vehicles::Vehicle>(std::uint64_t seed)> make;
   std::optional<SecretKey> key{};
@@ -26,7 +27,8 @@ struct LockstepService {
 };
 
 /// Serves who comes to the `door`, one after the other, until it is interrupted: the vehicle is with the first who
-/// speaks, and who comes meanwhile is turned away, unless that one has been silent for too long.
+/// speaks, and who comes meanwhile is turned away, unless that one has been silent for too long. What the vehicle
+/// throws but NoState ends that: its runner reads why, and Unfinished is thrown.
 void serve_lockstep(const Descriptor& door, const LockstepService& service, const Interrupter& interrupter);
 
 /// Serves one who has come, alone, until it is interrupted. Throws FrameEnd when that one has gone, or another

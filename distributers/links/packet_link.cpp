@@ -96,6 +96,7 @@ std::unique_ptr<Link> make_packet_link(std::unique_ptr<Transport> transport, con
   try {
     return std::make_unique<Link>(std::move(transport), set, options);
   } catch (const InputError& error) {
+    if (!last) throw;  // the transport's own
     problems.add(last->where, subject + ": " + error.what());
     return nullptr;
   }

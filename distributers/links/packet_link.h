@@ -73,15 +73,17 @@ LinkType packet_link(std::string name, std::string summary, CommonKeys common, s
   LinkType type{std::move(name), summary};
   keys = with_type_key(std::move(summary), std::move(keys));
   type.keys.assign(keys.begin(), keys.end());
-  type.make_link = [keys, make](const Yaml& yaml, const messages::MessageSet& set, const std::string& subject,
-                                Problems& problems) -> std::unique_ptr<Link> {
+  type.make_link = [name = type.name, keys, make](const Yaml& yaml, const messages::MessageSet& set,
+                                                  const std::string& subject, Problems& problems) {
     const std::size_t before = problems.size();
     S spec;
     read_keys(yaml, keys, spec, subject, problems);
-    std::unique_ptr<Transport> transport;
-    if (problems.size() == before) transport = make(spec, yaml, subject, problems);
-    if (problems.size() > before) transport = nullptr;
-    return make_packet_link(std::move(transport), spec, set, subject, problems);
+    return make_by_type(name, yaml.where, subject, problems, [&] {
+      std::unique_ptr<Transport> transport;
+      if (problems.size() == before) transport = make(spec, yaml, subject, problems);
+      if (problems.size() > before) transport = nullptr;
+      return make_packet_link(std::move(transport), spec, set, subject, problems);
+    });
   };
   type.make_external_system = [type](const LinkRequest& request, Problems& problems) {
     return make_packet_system(type, request, problems);

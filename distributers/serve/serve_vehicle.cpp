@@ -8,13 +8,25 @@ namespace {
 
 using distributers::Link;
 
+// What a plugin's vehicle throws is not this program's; what a sink throws stays as it is.
+template <class Work>
+void with_vehicle(const vehicles::VehicleClass& vehicle_class, const Work& work) {
+  const auto who = [&] { return "vehicle '" + vehicle_class.name + "'"; };
+  try {
+    work();
+  } catch (const std::exception&) { rethrow_as_unfinished(who()); } catch (...) {
+    throw Unfinished(who() + ": it throws what is no std::exception");
+  }
+}
+
 struct ToVehicle : messages::Receiver {
-  explicit ToVehicle(vehicles::Vehicle& to) : vehicle(to) {}
+  ToVehicle(vehicles::Vehicle& to, const vehicles::VehicleClass& of) : vehicle(to), vehicle_class(of) {}
   void receive(messages::MessageRef message) override {
     heard = true;
-    vehicle.accept(message);
+    with_vehicle(vehicle_class, [&] { vehicle.accept(message); });
   }
   vehicles::Vehicle& vehicle;
+  const vehicles::VehicleClass& vehicle_class;
   bool heard = false;  // since it was made false
 };
 
@@ -59,15 +71,6 @@ class Announcements {
   messages::imc::AnnounceTimer timer_;
 };
 
-// What a plugin's vehicle throws is not this program's; what a sink throws stays as it is.
-void step(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class) {
-  try {
-    vehicle.step();
-  } catch (const vehicles::NoState&) { throw; } catch (const std::exception&) {
-    rethrow_as_unfinished("vehicle '" + vehicle_class.name + "'");
-  }
-}
-
 }  // namespace
 
 ServeOutcome serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleClass& vehicle_class, Link& link,
@@ -75,7 +78,7 @@ ServeOutcome serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleCl
   static const std::atomic<bool> never{false};
   const std::atomic<bool>& interrupted = options.interrupted != nullptr ? *options.interrupted : never;
   ServeOutcome outcome{.silences = SilenceLog(vehicle_class)};
-  ToVehicle to_vehicle(vehicle);
+  ToVehicle to_vehicle(vehicle, vehicle_class);
   ToPeer to_link(link);
   const auto telemetry = make_telemetry(vehicle, vehicle_class, to_link, options.telemetry);
   messages::Receiver& to_peer = telemetry ? *telemetry : to_link;
@@ -90,7 +93,7 @@ ServeOutcome serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleCl
   Announcements announcements(vehicle, vehicle_class, link);
   const auto answer = [&](Duration at) {
     announcements.reach(at);
-    vehicle.sense(to_peer);
+    with_vehicle(vehicle_class, [&] { vehicle.sense(to_peer); });
     link.flush();
     const VehicleMoment moment{at, to_vehicle.heard, vehicle};
     outcome.silences.add(moment);
@@ -102,14 +105,14 @@ ServeOutcome serve_vehicle(vehicles::Vehicle& vehicle, const vehicles::VehicleCl
          instant += grid) {
       clock.wait_until(instant + grid, interrupted);
       // commands hold from the instant after they have come
-      step(vehicle, vehicle_class);
+      with_vehicle(vehicle_class, [&] { vehicle.step(); });
       to_vehicle.heard = false;
       link.receive(to_vehicle);
       answer(instant + grid);
     }
   } catch (const vehicles::NoState& error) { outcome.failure = error.what(); }
   link.disconnect();
-  outcome.mishap = vehicle.mishap();
+  with_vehicle(vehicle_class, [&] { outcome.mishap = vehicle.mishap(); });
   outcome.state = vehicle.state();
   outcome.actuators = actuators_of(vehicle, vehicle_class);
   outcome.link = link.report();

@@ -1,11 +1,26 @@
 #include "graph/analysis/check.h"
 
+#include <string>
 #include <utility>
 
 #include "graph/language/problems.h"
 #include "graph/model/deadlines.h"
+#include "graph/text/errors.h"
 
 namespace jarol::analysis {
+namespace {
+
+// What a plugin's policy throws is not this program's.
+Result ask_policy(const System& system, bool whole, Budget& budget) {
+  const auto who = [&] { return "policy '" + std::string(system.policy.name) + "'"; };
+  try {
+    return system.policy.check(system, whole, budget);
+  } catch (const std::exception&) { rethrow_as_unfinished(who()); } catch (...) {
+    throw Unfinished(who() + ": it throws what is no std::exception");
+  }
+}
+
+}  // namespace
 
 const char* word_of(Verdict verdict) {
   switch (verdict) {
@@ -19,7 +34,7 @@ const char* word_of(Verdict verdict) {
 Result check(const System& system) {
   constexpr std::uint64_t max_steps = 2'000'000'000;  // of all cores together
   Budget budget{max_steps};
-  Result result = system.policy.check(system, true, budget);
+  Result result = ask_policy(system, true, budget);
   // the policy of a plugin may leave them out
   result.response.resize(system.models.size());
   result.exact.resize(system.models.size());
@@ -28,7 +43,7 @@ Result check(const System& system) {
   return result;
 }
 
-Verdict verdict_of(const System& system, Budget& budget) { return system.policy.check(system, false, budget).verdict; }
+Verdict verdict_of(const System& system, Budget& budget) { return ask_policy(system, false, budget).verdict; }
 
 std::string open_deadline(const Graph& graph) {
   if (graph.platform.phasing != Phasing::any) return "";

@@ -27,9 +27,10 @@ class Process {
     file_ = read_vehicle_file(read_source(file), built_in().vehicles, problems);
     problems.throw_if_any();
     thread_ = std::thread([this] {
-      LockstepService service{.set = *file_->vehicle->message_set, .make = [this](std::uint64_t seed) {
-                                return file_->vehicle->make(file_->parameters.data(), seed);
-                              }};
+      LockstepService service{
+          .set = *file_->vehicle->message_set, .name = file_->vehicle->name, .make = [this](std::uint64_t seed) {
+            return file_->vehicle->make(file_->parameters.data(), seed);
+          }};
       service.note = [this](const std::string& text) { noted.push_back(text); };
       serve_lockstep(socket_, service, interrupter_);
     });

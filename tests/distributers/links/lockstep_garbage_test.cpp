@@ -188,7 +188,9 @@ TEST_SUITE("distributers/links/lockstep_garbage") {
       std::size_t accepted = 0;
       try {
         serve_runner(FrameStream(Descriptor(ends[1])),
-                     {.set = protocol().set, .make = [&](std::uint64_t) { return std::make_unique<Box>(accepted); }},
+                     {.set = protocol().set,
+                      .name = "box",
+                      .make = [&](std::uint64_t) { return std::make_unique<Box>(accepted); }},
                      interrupter);
         FAIL("it has not noticed the end");
       } catch (const FrameEnd&) { ++taken; } catch (const FrameError&) {

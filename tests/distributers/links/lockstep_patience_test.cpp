@@ -115,6 +115,7 @@ struct Server {
   explicit Server(std::optional<SecretKey> key = {}, std::chrono::milliseconds patience = short_patience) {
     thread = std::thread([this, key, patience] {
       LockstepService service{.set = javiator::message_set(),
+                              .name = "box",
                               .make = [](std::uint64_t) { return std::make_unique<EmptyBox>(); },
                               .key = key,
                               .patience = patience};

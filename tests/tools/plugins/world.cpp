@@ -1,4 +1,7 @@
 // A vehicle and its distributer, as a plugin brings them: a lamp that is switched by the JAviator's idle limit.
+#include <stdexcept>
+#include <string>
+
 #include "distributers/interfaces/plugin_distributer.h"
 #include "distributers/interfaces/plugin_vehicle.h"
 #include "distributers/messages/javiator.h"
@@ -50,7 +53,11 @@ class Lamp : public jarol::vehicles::Vehicle {
   void accept(jarol::messages::MessageRef command) override {
     if (const auto* limit = command.as<IdleLimit>()) inputs_.level = limit->idle;
   }
-  void step() override { outputs_.lamp.light = parameters_.gain * inputs_.level; }
+  void step() override {
+    if (inputs_.level > 900)
+      throw std::runtime_error("its filament breaks at level " + std::to_string(static_cast<int>(inputs_.level)));
+    outputs_.lamp.light = parameters_.gain * inputs_.level;
+  }
   void sense(jarol::messages::Receiver&) const override {}
   const jarol::Type* true_type() const override { return &jarol::type_of<Truth>(); }
   const void* true_values() const override { return &outputs_.lamp; }

@@ -19,7 +19,8 @@ int serve_vehicle_in_lockstep(const vehicles::VehicleClass& vehicle_class, const
                               const std::optional<distributers::SecretKey>& key) {
   constexpr int backlog = 16;
   const distributers::Descriptor door = distributers::listen_at(listen, backlog);
-  distributers::LockstepService service{.set = *vehicle_class.message_set, .make = make, .key = key};
+  distributers::LockstepService service{
+      .set = *vehicle_class.message_set, .name = vehicle_class.name, .make = make, .key = key};
   service.note = [](const std::string& text) { std::cerr << "note: " << text << "\n"; };
   service.mishap = [&](const vehicles::Mishap& mishap, const std::string& runner) {
     report(mishap, vehicle_class.name + " of " + runner);
