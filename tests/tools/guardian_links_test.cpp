@@ -108,8 +108,10 @@ TEST_SUITE("tools/guardian_links") {
     std::thread receiving([&] { consoles.receive(interrupter, sink); });
     const auto address = tests::any.with_port(consoles.port());
     const tests::Speaker one(address, SOCK_DGRAM), other(address, SOCK_DGRAM);
+    std::string left;
     {
       const tests::Speaker leaves(address, SOCK_DGRAM);
+      left = leaves.name;
       for (const tests::Speaker* each : {&one, &other, &leaves}) each->say(1);
       REQUIRE(tests::wait_for([&] { return consoles.counts.connected == 3; }));
     }
@@ -117,6 +119,10 @@ TEST_SUITE("tools/guardian_links") {
       consoles.send(bytes_of(probe));
       return consoles.counts.closed == 1;
     }));
+    // who has its port now is no console
+    const auto its = distributers::Address::parse(left);
+    const Descriptor heir(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+    REQUIRE(::bind(heir.get(), its.get(), its.size()) == 0);
     interrupter.interrupt();
     receiving.join();
     consoles.holder = nullptr;
@@ -124,5 +130,7 @@ TEST_SUITE("tools/guardian_links") {
     guardian.reset();  // as if the program were gone
     CHECK(heard_by(one) == times(5, "motors off, lamps off, "));
     CHECK(heard_by(other) == times(5, "motors off, lamps off, "));
+    char byte = 0;
+    CHECK(::recv(heir.get(), &byte, 1, MSG_DONTWAIT) < 0);
   }
 }

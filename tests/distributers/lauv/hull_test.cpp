@@ -114,8 +114,9 @@ TEST_SUITE("distributers/lauv_hull") {
     Named vehicle;
     vehicle.temperature(5, 20);
     vehicle.temperature(9, 12);
-    CHECK(are(hull_of(vehicle.instruments()), {}));
-    CHECK(vehicle.instruments().water_temperature.count == 0);
+    const tasks::Instruments unnamed = vehicle.instruments();
+    CHECK(are(hull_of(unnamed), {}));
+    CHECK(unnamed.water_temperature.count == 0);
     Asked asked;
     vehicle.adapter.reach(std::chrono::milliseconds(50), asked);
     CHECK(asked.count == 1);
