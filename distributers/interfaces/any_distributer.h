@@ -1,5 +1,5 @@
-// A distributer as links and external systems see it: messages of its external system on one side, values of the core
-// on the other, whatever its type. Who writes one writes a plain class, see distributer.h.
+// A distributer as links and the classes of ExternalSystem see it: messages on one side, values of the core on the
+// other, whatever its type. Who writes one writes a plain class, see distributer.h.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// From a distributer of its own type to one that links and external systems know: channels by number, messages by id.
+// From a distributer of its own type to an AnyDistributer: channels by number, messages by id.
 #pragma once
 
 #include <algorithm>

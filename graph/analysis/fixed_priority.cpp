@@ -20,7 +20,7 @@ class Interference {
     work_[at->second].wcet += model.wcet.count();
   }
 
-  // Of releases in a window of that length in ns, closed at its end or not.
+  // Work (ns) of all that is released within a window (ns), or at its end, too, where that is closed.
   Wide demand(std::int64_t window, bool closed) const {
     Wide sum = 0;
     for (const Work& w : work_) {

@@ -1,6 +1,7 @@
 #include "tasks/javiator/blind_observer.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "graph/math/geometry.h"
@@ -63,7 +64,7 @@ Matrix transition(const BlindObserver::Param& p, double lift, double spin, doubl
   F(3, 2) = -stiffness * dt;
   F(3, 3) = 1 - damping * dt;
   F(3, 4) = hub * dt;
-  F(4, 4) = 1 - dt / p.gust_time;
+  F(4, 4) = 1 - std::min(dt / p.gust_time, 1.0);
   return F;
 }
 

@@ -125,7 +125,8 @@ struct BlindObserver {
           field<&P::yaw_noise>("rad", "standard deviation of the yaw, which nobody measures"),
           field<&P::turn_limit>("rad/s", "of yaw when the IMU is lost, beyond which walls are lost, too"),
           field<&P::patience>("s", "without a laser that sees along an axis before its lean is unknown"),
-          field<&P::min_thrust>("", "mean demand by which the rotors' speed is reckoned, at least: at rest it is 0")
+          field<&P::min_thrust>(
+              "", "least mean thrust demanded, in parts of that of hover, by which the speed of the rotors is reckoned")
               .in(0.01, 1),
           field<&P::start>("", "what is known when the IMU is lost"));
     }

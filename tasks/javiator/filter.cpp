@@ -238,7 +238,8 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
        .lift = -force_b.z(),
        .drag_x = drag.x(),
        .drag_y = drag.y(),
-       .battery = e.battery == 0 ? s.battery : e.battery + dt / p.age.battery * (s.battery - e.battery),
+       .battery =
+           e.battery == 0 ? s.battery : e.battery + std::min(dt / p.age.battery_time, 1.0) * (s.battery - e.battery),
        .rates_age = state.last_turn.since,
        .fix_x = e.fix_x,
        .fix_y = e.fix_y,

@@ -101,7 +101,7 @@ struct ReadingAge {
   double fade = 0.05;
   double spread = 0;
   double noise = 0.03;
-  double battery = 1;
+  double battery_time = 1;
 
   static constexpr auto fields() {
     using A = ReadingAge;
@@ -113,7 +113,7 @@ struct ReadingAge {
                           "of the time from the IMU's sample to a range; 0: ranges count alike however fast it turns")
             .in(0, 1),
         field<&A::noise>("m", "of a place, against which what that makes of it is weighed").in(0.001, 10),
-        field<&A::battery>("s", "over which the battery's voltage is averaged").in(0.1, 1000));
+        field<&A::battery_time>("s", "over which the battery's voltage is averaged").in(0.1, 1000));
   }
 };
 

@@ -102,7 +102,7 @@ struct FlightLogic {
           field<&P::level>("rad", "of lean, beyond which it may stand on one foot").in(0, std::numbers::pi),
           field<&P::touch_time>("s", "for which it is still or light when it has touched down").in(0.001, 100),
           field<&P::doubt_time>("s", "the same, where it may hover or stand on one foot").in(0.01, 100),
-          field<&P::high_time>("s", "the same, where it measures that it is above that of high").in(0.01, 100),
+          field<&P::high_time>("s", "the same, where it measures that it is above `high`").in(0.01, 100),
           field<&P::out_of_control>("rad",
                                     "of lean that the IMU shows, beyond which a landing ends with the motors locked")
               .in(0, std::numbers::pi),
@@ -118,7 +118,8 @@ struct FlightLogic {
           field<&P::no_climb>("m/s", "climb below which it is not"),
           field<&P::least_time>("s", "of a landing, before it can be over"),
           field<&P::long_silence>("s", "of the Robostix, after which nobody knows whether it flies"),
-          field<&P::high>("m", "altitude from which on it touches nothing, if that is measured").in(0, 100),
+          field<&P::high>("m", "altitude from which on it touches nothing, if that is measured; still below it, it has")
+              .in(0, 0.5),
           field<&P::low>("m", "altitude below which a lean brings feet near the ground, and there is no time to turn"),
           field<&P::on_ground>("m", "altitude commanded up to which it is sent to the ground"),
           field<&P::max_trim>("rad", "lean, to either side, that may be stored as level").in(0, std::numbers::pi / 2),

@@ -59,7 +59,9 @@ struct MotorWatch {
           field<&P::sample_time>("s", "from when signals act until the IMU is sampled").in(0, 1),
           field<&P::of_one_sample>("", "of evidence that one sample may add, as signals that were held up act late")
               .in(0, 1),
-          field<&P::min_thrust>("", "thrust of hover that what a weak motor lacks is a part of, at least").in(0.01, 1),
+          field<&P::min_thrust>(
+              "", "least mean thrust, in parts of that of hover, that the lack of a weak motor is divided by")
+              .in(0.01, 1),
           field<&P::min_effectiveness>("", "of its thrust that a weak motor is taken to give, at least").in(0.01, 1),
           field<&P::battery>("", "how much signal makes up for another one, as MotorMixer has it"));
     }

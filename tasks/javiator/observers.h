@@ -76,7 +76,7 @@ struct RestLearning {
         field<&R::place_part>("", "of one in the place where it stands").in(0, 1),
         field<&R::pressure_part>("", "of one in the mean of the pressure").in(0, 1),
         field<&R::steps>("", "of the pressure from reading to reading, averaged for its noise, at most").in(2, 10000),
-        field<&R::max_step>("Pa", "of these: one gust is no noise").in(0, 10000));
+        field<&R::max_step>("Pa", "greatest such difference that counts: a gust is no noise").in(0, 10000));
   }
 };
 

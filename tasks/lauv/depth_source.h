@@ -19,7 +19,7 @@ struct Water {
   }
 };
 
-/// In m below the surface, from a pressure in hPa: (pressure - air_pressure) / (density g).
+/// In m below the surface, from a pressure in hPa: 100 (pressure - air_pressure) / (density g).
 double calc_depth(const Water& water, double pressure);
 
 /// The gauge, while it reports; then the pressure. Where they differ too much, the deeper one. Fixes of GPS come from

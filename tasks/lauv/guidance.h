@@ -18,8 +18,11 @@ struct StationKeeping {
 
   static constexpr auto fields() {
     using S = StationKeeping;
-    return describe(field<&S::back>("", "from its place, to which it drives back").in(0, 1),
-                    field<&S::edge>("", "within which its time counts, and it drives back at the surface").in(1, 1000));
+    return describe(
+        field<&S::back>("", "distance from its place to which it drives back, in radii of the station").in(0, 1),
+        field<&S::edge>(
+            "", "distance, in such radii, up to which its time counts; at the surface it drives back from there")
+            .in(1, 1000));
   }
 };
 
@@ -66,13 +69,16 @@ struct LauvGuidance {
           field<&P::reach>("m", "from a place, where it is reached"),
           field<&P::level>("m", "from a depth, where it is reached"),
           field<&P::miss>("m", "past the end of a line by so much, to any side, it is not reached"),
-          field<&P::joins>("", "times reach, and a turn's radius, from a line's end: the next begins there")
+          field<&P::joins>("",
+                           "times `reach`, plus the radius of a turn: a line that begins so near to the end of the "
+                           "last one begins there")
               .in(0, 1000),
-          field<&P::max_turn>("rad", "greatest turn from line to line for which it turns ahead of the corner")
+          field<&P::max_turn>(
+              "rad", "from line to line: before a sharper turn it begins no earlier than before one by this angle")
               .in(0, 170 * degree),
           field<&P::max_drift>("", "greatest sine of the angle by which it heads into a stream").in(0, 1),
           field<&P::min_speed>("m/s", "least speed by which times and drift are reckoned").in(0.001, 10),
-          field<&P::station>("", "how it keeps that"));
+          field<&P::station>("", "how it keeps a station"));
     }
   };
   struct In {

@@ -47,11 +47,11 @@ struct LauvNavigation {
           field<&P::depth_timeout>("s", "a gauge that reports nothing for so long is lost"),
           field<&P::depth_error>(
               "m", "where the pressure is deeper than the gauge by more, it counts; more than the supervisor allows"),
-          field<&P::fix_depth>("m", "greatest depth at which GPS works"),
+          field<&P::fix_depth>("m", "greatest depth at which GPS works, as the supervisor has it"),
           field<&P::fix_depth_error>("m", "a depth greater than that by more is wrong beside a fix"),
           field<&P::surface_fixes>("", "in a row that prove it at the surface: one may have been late, or another's")
               .in(1, 1000),
-          field<&P::water>("", "by which a pressure is a depth"),
+          field<&P::water>("", "by which a pressure is a depth, as the supervisor's reckoning.water"),
           field<&P::speed_time>("s", "over which the speed log is smoothed"),
           field<&P::drift>("m/s^0.5", "deviation of the way reckoned, after 1 s"),
           field<&P::current_change>("m/s^1.5", "deviation by which the current changes in 1 s"),

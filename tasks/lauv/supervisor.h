@@ -26,7 +26,7 @@ struct Reckoning {
     return describe(field<&R::angle_time>("s", "over which rates add up to angles").in(0.1, 1000),
                     field<&R::floor_time>("s", "in which the sea floor may rise or fall").in(0.1, 10000),
                     field<&R::drag_growth>("s/m", "by which surge_drag grows per speed, in parts of it").in(0, 100),
-                    field<&R::water>("", "by which a pressure is a depth"));
+                    field<&R::water>("", "by which a pressure is a depth, as LauvNavigation has it"));
   }
 };
 
@@ -109,7 +109,7 @@ struct LauvSupervisor {
           field<&P::max_depth>("m", "limit, for where it would level off"),
           field<&P::min_altitude>("m", "the same, over the sea floor"),
           field<&P::levelling_length>("m", "of the way that it takes to level off, whatever its speed").in(0, 100),
-          field<&P::levelling>("", "how it does"),
+          field<&P::levelling>("", "how it levels off"),
           field<&P::max_pitch>("rad", "limit, to either side").in(0, std::numbers::pi / 2),
           field<&P::min_voltage>("V", "limit"),
           field<&P::depth_error>("m", "greatest difference of gauge and pressure"),
@@ -123,8 +123,7 @@ struct LauvSupervisor {
           field<&P::reckoning>("", "what instruments are compared with"),
           field<&P::thrust_coefficient>("N s^2/rad^2", "of the propeller"),
           field<&P::advance_coefficient>("N s^2/(m rad)", "less thrust per speed of the propeller and speed ahead"),
-          field<&P::max_thrust>("N", "of the same"),
-          field<&P::surge_drag>("N s/m", "per speed, of one that hardly goes"),
+          field<&P::max_thrust>("N", "of the same"), field<&P::surge_drag>("N s/m", "per speed, at low speed"),
           field<&P::surge_mass>("kg", "with added mass").in(0.1, 10000), field<&P::climb_speed>("m/s", "on the way up"),
           field<&P::climb_time>("s", "after which it stops the propeller in any case"),
           field<&P::climb_sink>("m", "deeper than at the alarm by so much it stops the propeller, too"),

@@ -55,7 +55,7 @@ TEST_SUITE("tasks/ranges") {
 
   TEST_CASE("the filter learns by parts of at most 1, and knows walls at distances") {
     check_refused<JaviatorFilter::Param>({
-        {{"age", "battery"}, "a double [s] from 0.1 to 1000", "0"},
+        {{"age", "battery_time"}, "a double [s] from 0.1 to 1000", "0"},
         {{"drift", "rest", "bias_part"}, "a double from 0 to 1", "1.1"},
         {{"drift", "rest", "place_part"}, "a double from 0 to 1", "1.1"},
         {{"drift", "rest", "pressure_part"}, "a double from 0 to 1", "1.1"},
@@ -71,6 +71,7 @@ TEST_SUITE("tasks/ranges") {
     check_refused<FlightLogic::Param>({
         {{"max_trim"}, "a double [rad] from 0 to 1.5707963267948966", "-0.1"},
         {{"way", "stop_time"}, "a double [s] from 0 to 100", "-1"},
+        {{"high"}, "a double [m] from 0 to 0.5", "2"},
     });
   }
 

@@ -123,10 +123,11 @@ class LockstepPeer : public ActuatorPeer {
  public:
   LockstepPeer() {
     thread_ = std::thread([this] {
-      serve_lockstep(
-          socket_,
-          {.set = imc::message_set(), .make = [this](std::uint64_t) { return std::make_unique<Still>(notes_); }},
-          interrupter_);
+      serve_lockstep(socket_,
+                     {.set = imc::message_set(),
+                      .name = "still",
+                      .make = [this](std::uint64_t) { return std::make_unique<Still>(notes_); }},
+                     interrupter_);
     });
   }
   ~LockstepPeer() override { vanish(); }

@@ -57,7 +57,7 @@ TEST_SUITE("tasks/javiator/parameters") {
 
   TEST_CASE("the voltage is averaged over the time that is given") {
     HeardHelicopter heard = jarol::tests::hovering();
-    heard.param.age.battery = 2;
+    heard.param.age.battery_time = 2;
     heard.sensors.battery = 14;
     CHECK(heard.run(1).battery == doctest::Approx(15 - HeardHelicopter::dt / 2));
   }
