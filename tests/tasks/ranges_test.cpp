@@ -67,7 +67,7 @@ TEST_SUITE("tasks/ranges") {
     });
   }
 
-  TEST_CASE("a lean that is stored is less than on its side, and a stop takes no time before") {
+  TEST_CASE("max_trim and stop_time are refused below 0") {
     check_refused<FlightLogic::Param>({
         {{"max_trim"}, "a double [rad] from 0 to 1.5707963267948966", "-0.1"},
         {{"way", "stop_time"}, "a double [s] from 0 to 100", "-1"},

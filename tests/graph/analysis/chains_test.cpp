@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <limits>
-
 #include "tests/graph/analysis/milliseconds.h"
 #include "tests/graph/graph_of.h"
 
