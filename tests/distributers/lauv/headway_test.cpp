@@ -39,6 +39,27 @@ auto drifting(double rate) {
   return [rate](double t, Progress& progress, Motion&) { progress.distance = 40 + rate * t; };
 }
 
+// Has a plan keep a station of which the vehicle stays 60 m off, until it is given up; the leg then.
+tasks::Leg stay_in_vain(Conversation& c) {
+  imc::StationKeeping keep;
+  keep.lat = origin.latitude;
+  keep.lon = origin.longitude;
+  keep.z_units = imc::ZUnits::DEPTH;
+  keep.speed = 1;
+  keep.duration = 60;
+  imc::PlanControl request;
+  request.plan_id = "p";
+  request.arg = packed(keep);
+  c.say(request);
+  c.pass(50ms);
+  tasks::Leg leg;
+  for (int k = 0; k < 1000 && c.adapter.take<&LauvOperator::In::leg>(leg) | (leg.course != Course::none); ++k) {
+    c.adapter.hand_over<&LauvOperator::Out::progress>({.on_leg = leg.number, .distance = 60, .left = 60}, c.to);
+    c.pass(100ms);
+  }
+  return leg;
+}
+
 // The time of one that is not given up.
 const double never = 0;
 }  // namespace
@@ -110,7 +131,7 @@ TEST_SUITE("distributers/lauv/headway") {
     CHECK(given_up(circle, off, {.circle = 20}).first == never);
   }
 
-  TEST_CASE("it looks once a second at most, once a plan at least, and keeps a station within its radius at least") {
+  TEST_CASE("a period below 1 s, misses below 1, way, level and circle below 0 and a station below 1 are refused") {
     check_refused<HeadwayLimits>({
         {{"period"}, "a duration from 1s to 3600s", "10ms"},
         {{"misses"}, "a uint32 from 1 to 1000", "0"},
@@ -123,22 +144,7 @@ TEST_SUITE("distributers/lauv/headway") {
 
   TEST_CASE("a plan without headway has failed, the log book says where, and the propeller stops") {
     Conversation c;
-    imc::StationKeeping keep;
-    keep.lat = origin.latitude;
-    keep.lon = origin.longitude;
-    keep.z_units = imc::ZUnits::DEPTH;
-    keep.speed = 1;
-    keep.duration = 60;
-    imc::PlanControl request;
-    request.plan_id = "p";
-    request.arg = packed(keep);
-    c.say(request);
-    c.pass(50ms);
-    tasks::Leg leg;
-    for (int k = 0; k < 1000 && c.adapter.take<&LauvOperator::In::leg>(leg) | (leg.course != Course::none); ++k) {
-      c.adapter.hand_over<&LauvOperator::Out::progress>({.on_leg = leg.number, .distance = 60, .left = 60}, c.to);
-      c.pass(100ms);
-    }
+    const tasks::Leg leg = stay_in_vain(c);
     CHECK(c.now < 95s);
     CHECK(leg.course == Course::none);
     CHECK(c.setpoint().speed == 0);
@@ -150,5 +156,13 @@ TEST_SUITE("distributers/lauv/headway") {
     CHECK(c.to.last<imc::LogBookEntry>().text.view() == std::string("plan 'p' has failed: ") + why);
     CHECK(c.to.last<imc::LogBookEntry>().type == imc::LogBookEntry::Type::ERROR);
     CHECK(c.to.last<imc::VehicleState>().last_error == why);
+  }
+
+  TEST_CASE("the operator gives a plan up by the headway of its own parameters") {
+    Conversation c({.headway = {.period = 10s, .misses = 1}});
+    CHECK(stay_in_vain(c).course == Course::none);
+    CHECK(c.now > 10s);
+    CHECK(c.now < 11s);
+    CHECK(c.to.last<imc::VehicleState>().last_error == "maneuver '1': no headway in 10 s, 35 m from its place");
   }
 }
