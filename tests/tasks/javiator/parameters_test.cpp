@@ -40,19 +40,47 @@ TEST_SUITE("tasks/javiator/parameters") {
     CHECK_FALSE(seen({.grazing = 0.2}, 0.15, beside).seen);
   }
 
+  TEST_CASE("a wall is met from a place expected behind it, by as much as that may be off") {
+    CHECK(seen({.place_error = 0.2}, 0, {8.15, 0}).seen);
+    CHECK_FALSE(seen({.place_error = 0.2}, 0, {8.25, 0}).seen);
+    CHECK_FALSE(seen({}, 0, {8.15, 0}).seen);
+  }
+
   TEST_CASE("where it stands the filter learns by the parts that are given") {
     HeardHelicopter heard;
     heard.param.drift.rest = {.bias_part = 0.5, .place_part = 0.25, .pressure_part = 0.75};
     heard.run(100);
+    heard.sensors.a_x = 0.02;
+    heard.sensors.a_y = 0.04;
     heard.sensors.a_z += 0.5;
     heard.sensors.p = 0.01;
+    heard.sensors.q = 0.02;
     heard.sensors.sonar += 0.01;
     heard.sensors.pressure += 4;
     heard.run(1);
+    CHECK(heard.state.x.bias == doctest::Approx(0.01).scale(0).epsilon(1e-6));
+    CHECK(heard.state.y.bias == doctest::Approx(0.02).scale(0).epsilon(1e-6));
     CHECK(heard.state.z.bias == doctest::Approx(-0.25));
     CHECK(heard.state.slow_roll.bias == doctest::Approx(0.005));
+    CHECK(heard.state.slow_pitch.bias == doctest::Approx(0.01).scale(0).epsilon(1e-6));
     CHECK(heard.state.zero_z == doctest::Approx(0.055 + 0.145 + 0.0025));
     CHECK(heard.state.ground.mean == doctest::Approx(101325 + 3));
+  }
+
+  TEST_CASE("where it has landed the filter learns its place by the part that is given") {
+    HeardHelicopter heard;
+    heard.param.drift.rest.place_part = 0.25;
+    heard.run(100);
+    heard.directive.state = FlightState::flying;
+    heard.run(1);
+    heard.directive.state = FlightState::ground;
+    heard.sensors.laser_x -= 0.04;
+    heard.sensors.laser_y -= 0.08;
+    heard.sensors.sonar += 0.12;
+    heard.run(1);
+    CHECK(heard.state.x.place == doctest::Approx(0.01).scale(0).epsilon(1e-6));
+    CHECK(heard.state.y.place == doctest::Approx(0.02).scale(0).epsilon(1e-6));
+    CHECK(heard.state.z.place == doctest::Approx(0.03).scale(0).epsilon(1e-6));
   }
 
   TEST_CASE("the voltage is averaged over the time that is given") {
@@ -84,11 +112,13 @@ TEST_SUITE("tasks/javiator/parameters") {
     logic.param.max_trim = 0.03;
     logic.fly();
     logic.in.estimate.v_x = 0.2;
+    logic.in.estimate.v_y = -0.1;
     logic.in.estimate.roll = 0.05;
     ++logic.in.command.trim_stores;
     logic.press();
     CHECK(logic.out.directive.state == FlightState::landing);
     CHECK(logic.out.directive.x == doctest::Approx(0.4));
+    CHECK(logic.out.directive.y == doctest::Approx(-0.2));
     CHECK(logic.out.directive.trim_roll == 0.03);
   }
 
@@ -108,6 +138,37 @@ TEST_SUITE("tasks/javiator/parameters") {
     dead.run(60);
     CHECK(dead.out.motors.weak == Motor::front);
     CHECK(dead.out.motors.effectiveness[0] == 0.25);
+  }
+
+  TEST_CASE("what the rotors are taken to give follows the voltage as far as is given, to either side") {
+    const auto thrust_at = [](double battery) {
+      Watched w;
+      w.param.battery = {.min = 0.5, .max = 2};
+      w.in.estimate.battery = battery;
+      w.run(1);
+      return w.state.rotors[0].now[0];
+    };
+    CHECK(thrust_at(15.887 / 0.6) == doctest::Approx(std::pow(1 / 0.6, 1.415)));
+    CHECK(thrust_at(15.887 / 0.4) == doctest::Approx(std::pow(1 / 0.5, 1.415)));
+    CHECK(thrust_at(15.887 / 1.9) == doctest::Approx(std::pow(1 / 1.9, 1.415)));
+    CHECK(thrust_at(15.887 / 2.1) == doctest::Approx(std::pow(1 / 2.0, 1.415)));
+  }
+
+  TEST_CASE("a motor that is found weak lacks a part of its thrust, or of the least that is given") {
+    const auto gives = [](double min_thrust) {
+      Watched w;
+      w.param.min_thrust = min_thrust;
+      const double low = 8000 * std::pow(0.5, 1 / 1.415);
+      for (int i = 0; i < 60; ++i) w.period({low, low, low, low});
+      w.body.parts[0] = 0.25;
+      for (int i = 0; i < 60 && w.out.motors.weak == Motor::none; ++i) w.period({low, low, low, low});
+      CHECK(w.out.motors.weak == Motor::front);
+      return w.out.motors.effectiveness[0];
+    };
+    // of half of hover's thrust it lacks three quarters, of which two samples show nearly all
+    const double lacks = 1 - gives(0.1);
+    CHECK(std::abs(lacks - 0.75) < 0.03);
+    CHECK(1 - gives(0.8) == doctest::Approx(lacks * 0.5 / 0.8));
   }
 
   TEST_CASE("the noise of the pressure is that of as many steps as are given, each up to the greatest") {

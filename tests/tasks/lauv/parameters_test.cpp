@@ -72,6 +72,18 @@ TEST_SUITE("tasks/lauv/parameters") {
     }
   }
 
+  TEST_CASE("without a gauge the depth is that of the pressure in its water: 12.2 m of fresh water are 11.9 m at sea") {
+    for (const bool at_sea : {true, false}) {
+      Watched w;
+      if (at_sea) w.param.reckoning.water.density = 1025;
+      const Alarm alarm = w.run(40, [](Instruments& i) {
+        i.depth.count = -1;
+        i.pressure.value = 1013.25 + 12.2 * 98.1;
+      });
+      CHECK(alarm == (at_sea ? Alarm::none : Alarm::depth_limit));
+    }
+  }
+
   TEST_CASE("where one fix proves the surface, a deeper reading is wrong at once") {
     for (const std::int64_t fixes : {1, 2}) {
       LauvNavigation::State state;
@@ -176,6 +188,19 @@ TEST_SUITE("tasks/lauv/parameters") {
     CHECK(steer({.min_speed = 0.5}, line, {}).progress.left == doctest::Approx(200));
   }
 
+  TEST_CASE("who hardly goes ahead heads into a stream, slips on a circle and goes down as at the least speed") {
+    const LauvGuidance::Param p{.heading_time = 0, .min_speed = 0.5};
+    const Leg line{.number = 1, .course = Course::line, .north = 100};
+    CHECK(steer(p, line, {}, {.east = 0.2}).setpoint.heading == doctest::Approx(-std::asin(0.2 / 0.5)));
+    const Leg circle{.number = 1, .course = Course::circle, .radius = 20};
+    CHECK(steer(p, circle, {.x = 20, .v = 0.2}).setpoint.heading == doctest::Approx(pi / 2 - std::atan(0.2 / 0.5)));
+    Leg down = line;
+    down.level = 5;
+    down.amplitude = 2;
+    down.slope = 30 * degree;
+    CHECK(steer(p, down, {.z = 4}).setpoint.depth == doctest::Approx(4 + 0.05 * 0.5 * 0.5).scale(0).epsilon(1e-6));
+  }
+
   TEST_CASE("a station is driven back to as far as it is said, and at the surface within its edge") {
     LauvGuidance::Param p;
     p.station = {.back = 0.8, .edge = 5};
@@ -192,5 +217,21 @@ TEST_SUITE("tasks/lauv/parameters") {
     CHECK(at(7.9).speed == 0);
     CHECK(at(49).depth == 0);
     CHECK(at(51).depth == 3);
+  }
+
+  TEST_CASE("the time at a station counts within its edge") {
+    LauvGuidance::Param p;
+    p.station.edge = 5;
+    LauvGuidance::State state;
+    LauvGuidance::Out out;
+    LauvGuidance::In in{.leg = {.number = 1, .course = Course::station, .radius = 10, .duration = 10}};
+    const auto left_at = [&](double x) {
+      in.motion.x = x;
+      LauvGuidance::run(p, every_50_ms, in, state, out);
+      return out.progress.left;
+    };
+    CHECK(left_at(9) == doctest::Approx(9.95));
+    CHECK(left_at(49) == doctest::Approx(9.9));
+    CHECK(left_at(51) == doctest::Approx(9.9));
   }
 }
