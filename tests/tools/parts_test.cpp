@@ -1,10 +1,13 @@
 // What graphs can be made of, as `jarol tasks` lists it.
 #include <doctest/doctest.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "graph/values/bind.h"
+#include "graph/values/value.h"
 #include "tests/tools/reports.h"
 #include "tools/library/built_in.h"
 
@@ -17,6 +20,26 @@ std::vector<std::string> names_in(const nlohmann::json& parts) {
   std::vector<std::string> names;
   for (const auto& part : parts) names.push_back(part["name"]);
   return names;
+}
+
+nlohmann::json named(const nlohmann::json& list, const std::string& name) {
+  for (const auto& each : list)
+    if (each["name"] == name) return each;
+  return {};
+}
+
+// Each parameter takes the default that is shown.
+void check_defaults(const jarol::Type& type, const nlohmann::json& part) {
+  CHECK(part["parameters"].size() == type.fields.size());
+  for (const nlohmann::json& parameter : part["parameters"]) {
+    const std::string name = parameter["name"];
+    const jarol::TypeField& field = *jarol::find_field(type, name);
+    jarol::Problems problems;
+    const auto source = std::make_shared<jarol::Source>(jarol::Source{part["name"], parameter["default"]});
+    jarol::Value value(*field.type);
+    jarol::bind_value(jarol::read_yaml(source, problems), *field.type, field.unit, value.data(), name, problems);
+    CHECK_NOTHROW(problems.throw_if_any());
+  }
 }
 }  // namespace
 
@@ -33,6 +56,64 @@ TEST_SUITE("tools/parts") {
                          {"direction", "in"},
                          {"type", "Motion"},
                          {"text", "position, attitude and velocities"}});
+  }
+
+  TEST_CASE("tasks shows the members of parameters at every depth, each with type, unit, range, text and default") {
+    const std::string supervisor = run_jarol("tasks LauvSupervisor").output;
+    CHECK(has(
+        supervisor,
+        "\n  reckoning            Reckoning                                  what instruments are compared with\n"));
+    CHECK(
+        has(supervisor,
+            "\n    reckoning.water.density       double [kg/m^3] from 500 to 2000  of the water; of the sea some 1025, "
+            "default 1000\n"));
+    const nlohmann::json reckoning =
+        named(json_of("tasks LauvSupervisor --json")["tasks"][0]["parameters"], "reckoning");
+    CHECK(reckoning["default"] ==
+          "{angle_time: 2, floor_time: 30, drag_growth: 1, water: {density: 1000, air_pressure: 1013.25}}");
+    CHECK(named(reckoning["members"], "reckoning.water.density") ==
+          nlohmann::json{{"name", "reckoning.water.density"},
+                         {"type", "double"},
+                         {"unit", "kg/m^3"},
+                         {"text", "of the water; of the sea some 1025"},
+                         {"default", "1000"},
+                         {"minimum", 500},
+                         {"maximum", 2000}});
+  }
+
+  TEST_CASE("tasks shows durations in structs with their unit") {
+    CHECK(has(run_jarol("tasks LauvOperator").output,
+              "\n    headway.period   duration from 1s to 3600s  from one look at what is left of a leg to the next, "
+              "default 30s\n"));
+    const nlohmann::json headway =
+        named(json_of("tasks LauvOperator --json")["distributers"][0]["parameters"], "headway");
+    CHECK(headway["default"] == "{period: 30s, misses: 3, way: 1.5, level: 0.3, circle: 15, station: 2.5}");
+    CHECK(named(headway["members"], "headway.period") ==
+          nlohmann::json{{"name", "headway.period"},
+                         {"type", "duration"},
+                         {"unit", ""},
+                         {"text", "from one look at what is left of a leg to the next"},
+                         {"default", "30s"},
+                         {"minimum", "1s"},
+                         {"maximum", "3600s"}});
+  }
+
+  TEST_CASE("tasks shows the members of inputs and outputs, arrays of numbers and words as one") {
+    const std::string supervisor = run_jarol("tasks LauvSupervisor").output;
+    CHECK(has(supervisor, "\n    instruments.beacons.1.range          double [m]        from the vehicle\n"));
+    CHECK(has(supervisor,
+              "\n    fins.states     FinState[4]      of bottom, port, starboard, top\n"
+              "      unknown  it has not reported yet, or never does\n"));
+    CHECK(has(supervisor, "\n    fins.angles     double[4] [rad]  at which those that are stuck are held\n"));
+  }
+
+  TEST_CASE("a default is shown as a graph may say it") {
+    const nlohmann::json all = json_of("tasks --json");
+    for (const jarol::TaskClass& task : jarol::built_in().graph.tasks())
+      check_defaults(*task.parameters, named(all["tasks"], task.name));
+    for (const jarol::DistributerClass& distributer : jarol::built_in().graph.distributers())
+      if (distributer.parameters != nullptr)
+        check_defaults(*distributer.parameters, named(all["distributers"], distributer.name));
   }
 
   TEST_CASE("tasks lists vehicles, links, policies and grammars, too") {

@@ -158,7 +158,7 @@ TEST_SUITE("tools/readme") {
     std::istringstream lines(between(described, "parameters\n", "\noutputs"));
     int fields = 0;
     for (std::string line; std::getline(lines, line);) {
-      if (line.starts_with("    ")) continue;  // the words of an enumeration
+      if (line.starts_with("    ")) continue;  // words of an enumeration, members of a struct
       ++fields;
       const std::string name = line.substr(2, line.find(' ', 2) - 2);
       CHECK(text.find("\n      " + name + ": ") != std::string::npos);

@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "graph/text/errors.h"
-#include "graph/values/bind.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/other_parts.h"
 #include "tools/commands/run/known_with.h"
+#include "tools/commands/task_fields.h"
 #include "tools/library/built_in.h"
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
@@ -20,92 +20,6 @@ struct TasksOptions {
   std::vector<std::string> plugins;
   bool json = false;
 };
-
-std::string default_text(const Type& type, const void* value) {
-  const auto* bytes = static_cast<const std::byte*>(value);
-  if (type.kind == Kind::duration) return duration_text(Duration(read_integer(type, value)));
-  if (type.kind != Kind::structure && type.kind != Kind::array) return scalar_text(type, value);
-  std::string text;
-  for (const Leaf& leaf : leaves_of(type))
-    text += (text.empty() ? "" : ", ") + leaf.path + ": " + scalar_text(*leaf.type, bytes + leaf.offset);
-  return "{" + text + "}";
-}
-
-// The words of an enumeration below what has its type: with meanings one a line, else all in one.
-void print_enumerators(const Type& type, const std::string& margin) {
-  if (type.kind != Kind::enumeration) return;
-  std::size_t width = 0;
-  std::string names;
-  bool explained = false;
-  for (std::size_t i = 0; i < type.enumerators.size(); ++i) {
-    const std::string& name = type.enumerators[i].first;
-    width = std::max(width, name.size());
-    names += (i == 0 ? "" : ", ") + name;
-    explained = explained || !type.meanings[i].empty();
-  }
-  if (!explained) {
-    std::cout << margin << names << "\n";
-    return;
-  }
-  for (std::size_t i = 0; i < type.enumerators.size(); ++i) {
-    std::string line = margin + type.enumerators[i].first;
-    if (!type.meanings[i].empty())
-      line += std::string(width - type.enumerators[i].first.size() + 2, ' ') + type.meanings[i];
-    std::cout << line << "\n";
-  }
-}
-
-std::string ranged_text(const TypeField& field) {
-  return field.range.is_stated() ? " " + range_text(*field.type, field.range) : "";
-}
-
-void print_fields(const std::string& title, const Type& type, bool defaults) {
-  if (type.fields.empty()) return;
-  std::cout << "\n" << title << "\n";
-  const Value value(type);
-  std::size_t name_width = 0, type_width = 0;
-  const auto type_text = [](const TypeField& f) {
-    return f.type->name + (f.unit.empty() ? "" : " [" + f.unit + "]") + ranged_text(f);
-  };
-  for (const TypeField& f : type.fields) {
-    name_width = std::max(name_width, f.name.size());
-    type_width = std::max(type_width, type_text(f).size());
-  }
-  for (const TypeField& f : type.fields) {
-    std::string line = "  " + f.name + std::string(name_width - f.name.size() + 2, ' ') + type_text(f) +
-                       std::string(type_width - type_text(f).size() + 2, ' ') + f.text;
-    if (defaults)
-      line += (f.text.empty() ? "" : ", ") + std::string("default ") +
-              default_text(*f.type, static_cast<const std::byte*>(value.data()) + f.offset);
-    line.erase(line.find_last_not_of(' ') + 1);
-    std::cout << line << "\n";
-    print_enumerators(*f.type, "    ");
-    // members of a struct, one level down
-    for (const Leaf& leaf : f.type->kind == Kind::structure && !defaults ? leaves_of(*f.type) : std::vector<Leaf>{}) {
-      const TypeField* member = find_field(*f.type, leaf.path);
-      std::cout << "    ." << leaf.path << (leaf.unit.empty() ? "" : " [" + leaf.unit + "]")
-                << (member == nullptr ? "" : ranged_text(*member))
-                << (member == nullptr || member->text.empty() ? "" : "  " + member->text) << "\n";
-      print_enumerators(*leaf.type, "      ");
-    }
-  }
-}
-
-nlohmann::ordered_json fields_json(const Type& type) {
-  auto list = nlohmann::ordered_json::array();
-  const Value value(type);
-  for (const TypeField& f : type.fields) {
-    list.push_back({{"name", f.name},
-                    {"type", f.type->name},
-                    {"unit", f.unit},
-                    {"text", f.text},
-                    {"default", default_text(*f.type, static_cast<const std::byte*>(value.data()) + f.offset)}});
-    if (f.range.is_stated()) list.back().update({{"minimum", f.range.min}, {"maximum", f.range.max}});
-    for (std::size_t i = 0; i < f.type->enumerators.size(); ++i)
-      list.back()["enumerators"].push_back({{"name", f.type->enumerators[i].first}, {"meaning", f.type->meanings[i]}});
-  }
-  return list;
-}
 
 nlohmann::ordered_json task_json(const TaskClass& task) {
   return {{"name", task.name},

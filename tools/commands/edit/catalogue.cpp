@@ -6,6 +6,7 @@
 #include "distributers/distributers.h"
 #include "graph/language/tables.h"
 #include "graph/values/value.h"
+#include "tools/report/members.h"
 #include "tools/report/value_json.h"
 
 namespace jarol::tools::edit {
@@ -29,36 +30,31 @@ const char* kind_of(const Type& type) {
   return "";
 }
 
-// Each member by its path; lists are edited as a whole.
-void add_fields(const Type& type, const std::byte* value, const std::string& path, Json& to) {
-  for (const TypeField& field : type.fields) {
-    const std::string own = path + field.name;
-    if (field.type->kind == Kind::structure && !field.type->fields.empty()) {
-      add_fields(*field.type, value + field.offset, own + ".", to);
-      continue;
-    }
-    Json json{
-        {"path", own}, {"kind", kind_of(*field.type)}, {"default", graph_text(*field.type, value + field.offset)}};
-    if (!field.unit.empty()) json["unit"] = field.unit;
-    if (!field.text.empty()) json["text"] = field.text;
-    if (field.range.is_stated() && field.type->kind != Kind::duration) {
-      json["min"] = field.range.min;
-      if (std::isfinite(field.range.max)) json["max"] = field.range.max;
-    }
-    for (std::size_t i = 0; i < field.type->enumerators.size(); ++i) {
-      json["words"].push_back({{"name", field.type->enumerators[i].first}});
-      if (i < field.type->meanings.size() && !field.type->meanings[i].empty())
-        json["words"].back()["meaning"] = field.type->meanings[i];
-    }
-    to.push_back(std::move(json));
+Json member_json(const Member& member, const Value& defaults) {
+  const TypeField& field = *member.field;
+  const auto* value = static_cast<const std::byte*>(defaults.data()) + member.offset;
+  Json json{{"path", member.path}, {"kind", kind_of(*field.type)}, {"default", graph_text(*field.type, value)}};
+  if (!field.unit.empty()) json["unit"] = field.unit;
+  if (!field.text.empty()) json["text"] = field.text;
+  if (field.range.is_stated() && field.type->kind != Kind::duration) {
+    json["min"] = field.range.min;
+    if (std::isfinite(field.range.max)) json["max"] = field.range.max;
   }
+  for (std::size_t i = 0; i < field.type->enumerators.size(); ++i) {
+    json["words"].push_back({{"name", field.type->enumerators[i].first}});
+    if (i < field.type->meanings.size() && !field.type->meanings[i].empty())
+      json["words"].back()["meaning"] = field.type->meanings[i];
+  }
+  return json;
 }
 
+// Each member by its path; lists are edited as a whole.
 Json fields_json(const Type* type) {
   auto fields = Json::array();
   if (type == nullptr) return fields;
   const Value defaults(*type);
-  add_fields(*type, static_cast<const std::byte*>(defaults.data()), "", fields);
+  for (const Member& member : members_of(*type, Arrays::whole))
+    if (!member.has_members) fields.push_back(member_json(member, defaults));
   return fields;
 }
 
