@@ -55,6 +55,8 @@ std::string default_text(const Member& member, const Value& defaults) {
 // Of the numbers or words in arrays and sequences, that of one.
 const Type& innermost(const Type& type) { return type.element != nullptr ? innermost(*type.element) : type; }
 
+std::string padded(const std::string& text, std::size_t width) { return text + std::string(width - text.size(), ' '); }
+
 // The words of an enumeration below what has its type: with meanings one a line, else all in one.
 void print_enumerators(const Type& type, const std::string& margin) {
   if (type.enumerators.empty()) return;
@@ -72,10 +74,8 @@ void print_enumerators(const Type& type, const std::string& margin) {
     return;
   }
   for (std::size_t i = 0; i < type.enumerators.size(); ++i) {
-    std::string line = margin + type.enumerators[i].first;
-    if (!type.meanings[i].empty())
-      line += std::string(width - type.enumerators[i].first.size() + 2, ' ') + type.meanings[i];
-    std::cout << line << "\n";
+    const std::string& name = type.enumerators[i].first;
+    std::cout << margin << (type.meanings[i].empty() ? name : padded(name, width + 2) + type.meanings[i]) << "\n";
   }
 }
 
@@ -96,8 +96,6 @@ Columns columns_of(std::span<const Member> members) {
   }
   return columns;
 }
-
-std::string padded(const std::string& text, std::size_t width) { return text + std::string(width - text.size(), ' '); }
 
 // Structs have no default of their own: their members do.
 void print_member(const Member& member, const Columns& columns, const std::string& margin, const Value* defaults) {
@@ -148,7 +146,8 @@ void print_fields(const std::string& title, const Type& type, bool with_defaults
   for (auto member = all.begin(); member != all.end();) {
     print_member(*member, columns, "  ", defaults);
     const std::span<const Member> inner(member + 1, std::find_if(member + 1, all.end(), is_outermost));
-    for (const Member& each : inner) print_member(each, columns_of(inner), "    ", defaults);
+    const Columns inner_columns = columns_of(inner);
+    for (const Member& each : inner) print_member(each, inner_columns, "    ", defaults);
     member += 1 + static_cast<std::ptrdiff_t>(inner.size());
   }
 }
