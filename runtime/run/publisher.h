@@ -13,14 +13,15 @@ template <bool Digest, bool AtOnce = false>
 [[gnu::always_inline]] inline std::uint64_t make_visible(const Publish& what, std::uint64_t digest_term) {
   constexpr std::uint32_t many = 8;  // fewer of them cost less than a call
   std::uint64_t digest = 0;
-  if (what.copies.count < many) [[likely]] {
-    for (const Copy& c : what.copies) transfer<AtOnce>(c);
-  } else {
-    transfer_all(what.copies);
-  }
+  // before the copies, which wait for values just made to reach the cache where they are wider than what was stored
   if constexpr (Digest)
     for (const Publication& p : what.publications)
       digest += digest::publication(p.name_hash, digest_term, p.hash_words(p.value));
+  if (what.copies.count < many) [[likely]] {
+    for (const Copy& c : what.copies) transfer<AtOnce && !Digest>(c);
+  } else {
+    transfer_all(what.copies);
+  }
   return digest;
 }
 
