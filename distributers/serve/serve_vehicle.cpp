@@ -11,12 +11,9 @@ using distributers::Link;
 // What a plugin's vehicle throws is not this program's; what a sink throws stays as it is.
 template <class Work>
 void with_vehicle(const vehicles::VehicleClass& vehicle_class, const Work& work) {
-  const auto who = [&] { return "vehicle '" + vehicle_class.name + "'"; };
   try {
     work();
-  } catch (const std::exception&) { rethrow_as_unfinished(who()); } catch (...) {
-    throw Unfinished(who() + ": it throws what is no std::exception");
-  }
+  } catch (...) { rethrow_as_unfinished("vehicle '" + vehicle_class.name + "'"); }
 }
 
 struct ToVehicle : messages::Receiver {

@@ -30,7 +30,9 @@ struct Unfinished : std::runtime_error {
     throw;
   } catch (const std::system_error&) { throw; } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::exception& error) { throw Unfinished(who + ": " + error.what()); }
+  } catch (const std::exception& error) { throw Unfinished(who + ": " + error.what()); } catch (...) {
+    throw Unfinished(who + ": it throws what is no std::exception");
+  }
 }
 
 }  // namespace jarol

@@ -81,7 +81,7 @@ int drive(const VehicleCommandOptions& options, const vehicles::VehicleClass& ve
   } catch (const vehicles::NoState& error) {
     std::cerr << "error: " << error.what() << "\n";
     return exit_unfinished;
-  } catch (const std::exception&) { rethrow_as_unfinished("vehicle '" + vehicle_class.name + "'"); }
+  } catch (...) { rethrow_as_unfinished("vehicle '" + vehicle_class.name + "'"); }
   const std::optional<vehicles::Mishap> mishap = vehicle->mishap();
   if (mishap) report(*mishap, vehicle_class.name);
   return mishap ? exit_negative : exit_good;
