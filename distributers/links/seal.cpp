@@ -31,12 +31,12 @@ std::array<std::byte, Seal::tag_size> tag_of(const SecretKey& key, std::span<con
 
 enum class Kind : std::uint8_t { content, hello, last };
 
-struct Head {
+struct SealHead {
   Kind kind{};
   std::uint64_t session = 0, number = 0;
 };
 
-void write(const SecretKey& key, const Head& head, std::span<const std::byte> content, std::vector<std::byte>& to) {
+void write(const SecretKey& key, const SealHead& head, std::span<const std::byte> content, std::vector<std::byte>& to) {
   to.resize(Seal::overhead + content.size());
   const auto length = static_cast<std::uint32_t>(content.size());
   std::memcpy(to.data(), magic.data(), magic.size());

@@ -44,9 +44,9 @@ class Keys {
 };
 
 // Builds the tree from events, which still know anchors, quotes and every key.
-class Builder {
+class TreeBuilder {
  public:
-  Builder(YamlEvents& events, Problems& problems) : events_(events), problems_(problems) {}
+  TreeBuilder(YamlEvents& events, Problems& problems) : events_(events), problems_(problems) {}
 
   // From after the begin of a document to its end.
   Yaml read() {
@@ -238,7 +238,7 @@ Yaml read_yaml(const std::shared_ptr<const Source>& source, Problems& problems) 
     YamlEvents events(source, problems);
     events.next();  // the begin of the stream
     if (events.next().type != YAML_DOCUMENT_START_EVENT) return root;
-    root = Builder(events, problems).read();
+    root = TreeBuilder(events, problems).read();
     if (events.next().type == YAML_DOCUMENT_START_EVENT) {
       events.next();
       problems.add(events.where(), "a second document begins here; a file holds one");
