@@ -1,4 +1,4 @@
-// The commands that tools/demo builds, in two thirds of the time that all take. tools/build builds the others.
+// The commands that tools/demo builds, sooner than all are. tools/build builds the others.
 
 #include "graph/text/errors.h"
 #include "tools/commands/commands.h"

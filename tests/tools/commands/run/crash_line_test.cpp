@@ -84,7 +84,6 @@ TEST_SUITE("tools/crash_line") {
   TEST_CASE("what another process sends is no task's fault") {
     const TemporaryFolder folder;
     Process process("run " + crashing(folder, "none") + " --clock real --for 1h");
-    const std::string trace = "SigCgt:";
     // its handlers stand as soon as it has the last, which no sanitizer has
     for (bool stands = false; !stands;) {
       std::ifstream status("/proc/" + std::to_string(process.id()) + "/status");
