@@ -21,8 +21,8 @@
 namespace jarol::distributers {
 namespace {
 
-constexpr int begin_patience = 5000;  // ms, for it to begin
-constexpr int end_patience = 1000;    // ms, for it to end
+constexpr int patience_to_begin = 5000;  // ms, for it to begin
+constexpr int patience_to_end = 1000;    // ms, for it to end
 
 std::span<const std::byte> bytes_of(const auto& value) { return std::as_bytes(std::span(&value, 1)); }
 
@@ -96,7 +96,7 @@ void Guardian::await_ready(std::optional<int> priority) {
   const Urgency urgency{priority.value_or(0)};
   said_all_ &= say(socket_.get(), {Word::ready, 0}, bytes_of(urgency));
   std::array<std::byte, sizeof(Sentence)> room;
-  if (!said_all_ || !is_ready(socket_.get(), begin_patience) || !hear(socket_.get(), room))
+  if (!said_all_ || !is_ready(socket_.get(), patience_to_begin) || !hear(socket_.get(), room))
     throw Unfinished("its process does not answer");
 }
 
@@ -119,7 +119,7 @@ void Guardian::wake() const { say(socket_.get(), {Word::crashed, 0}); }
 bool Guardian::end() {
   if (process_ < 0) return true;
   shutdown(socket_.get(), SHUT_WR);
-  const bool in_time = is_ready(socket_.get(), end_patience);
+  const bool in_time = is_ready(socket_.get(), patience_to_end);
   if (!in_time) kill(process_, SIGKILL);
   int status = 0;
   while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {}

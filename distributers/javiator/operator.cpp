@@ -16,7 +16,7 @@ std::int16_t to_wire(double value) {
 std::int16_t milli(double value) { return to_wire(1e3 * value); }
 
 // the low 16 bits, as it sends them
-std::int16_t wrapped(double value) { return static_cast<std::int16_t>(static_cast<std::int64_t>(value) & 0xffff); }
+std::int16_t low_word(double value) { return static_cast<std::int16_t>(static_cast<std::int64_t>(value) & 0xffff); }
 
 // it knows no landing: as long as it may be in the air, it flies
 std::uint8_t state_of(tasks::FlightState state) {
@@ -120,7 +120,7 @@ void JaviatorOperator::send_report(const tasks::HelicopterReport& report, messag
                   .ddx = milli(report.a_x),
                   .ddy = milli(report.a_y),
                   .ddz = milli(report.a_up),
-                  .maps = wrapped(1e3 * report.pressure),
+                  .maps = low_word(1e3 * report.pressure),
                   .temp = to_wire(100 * report.temperature),
                   .batt = milli(report.battery)},
       .signals = {to_wire(signals[0]), to_wire(signals[1]), to_wire(signals[2]), to_wire(signals[3]), ++reports_},

@@ -38,12 +38,12 @@ namespace {
 
 // How many are ready. A signal to the process is no reason to come back.
 int poll_for(std::span<pollfd> polled, std::chrono::milliseconds time) {
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + time;
+  const auto end = std::chrono::steady_clock::now() + time;
   int ready = 0;
   while ((ready = poll(polled.data(), polled.size(), static_cast<int>(time.count()))) < 0 && errno == EINTR)
     if (time.count() >= 0)
-      time = std::max(std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()), std::chrono::milliseconds(0));
+      time = std::max(std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now()),
+                      std::chrono::milliseconds(0));
   return ready;
 }
 

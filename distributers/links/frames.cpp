@@ -16,7 +16,7 @@
 namespace jarol::distributers {
 namespace {
 
-constexpr std::size_t longest = std::size_t{1} << 20;
+constexpr std::size_t longest_frame = std::size_t{1} << 20;
 
 using Clock = FrameStream::Clock;
 
@@ -134,7 +134,7 @@ void FrameStream::read_sealed(Clock::time_point deadline) {
   if (!Seal::is_sealed(sealed_) && is_busy) fail("is busy: it is with another");
   if (!Seal::is_sealed(sealed_)) fail("has no key; both ends need the same, or none");
   const std::size_t size = Seal::size_of(sealed_);
-  if (size > Seal::overhead + 2 * longest) fail("does not speak the lockstep protocol");
+  if (size > Seal::overhead + 2 * longest_frame) fail("does not speak the lockstep protocol");
   sealed_.resize(size);
   read_raw(std::span(sealed_).subspan(Seal::head_size), deadline);
   const Seal::Opened opened = seal_->open(sealed_);
@@ -169,7 +169,7 @@ FrameStream::Frame FrameStream::read(Clock::time_point deadline) {
   for (std::size_t i = 0; i < 4; ++i) size |= std::to_integer<std::uint32_t>(head[i]) << (8 * i);
   const auto kind = static_cast<FrameKind>(head[4]);
   if (!seal_ && Seal::is_sealed(head)) fail("asks for a key; both ends need the same, or none");
-  if (kind < FrameKind::welcome || kind > FrameKind::busy || size > longest)
+  if (kind < FrameKind::welcome || kind > FrameKind::busy || size > longest_frame)
     fail("does not speak the lockstep protocol");
   in_.resize(size);
   read_bytes(in_, deadline);

@@ -17,7 +17,7 @@ using std::chrono::milliseconds;
 
 // in a flood of strangers the door is left alone for a while, so that it costs little
 constexpr int strangers_before_rest = 64;
-constexpr milliseconds rest{10};
+constexpr milliseconds rest_time{10};
 
 struct Datagram {
   ssize_t length = -1;  // bytes; negative: none
@@ -157,9 +157,9 @@ void UdpTransport::receive(const Interrupter& interrupter, ByteSink& sink) {
     const bool rests = strangers_in_row_ >= strangers_before_rest && have_sockets();
     sockets[0] = rests ? -1 : door_.socket.get();
     for (std::size_t i = 0; i < peers_.size(); ++i) sockets[1 + i] = peers_[i].own.socket.get();
-    const auto [interrupted, ready] =
-        interrupter.wait_for_some(std::span(sockets).first(1 + peers_.size()),
-                                  rests ? rest : (ownership_.is_owned() ? Ownership::look_interval : milliseconds(-1)));
+    const auto [interrupted, ready] = interrupter.wait_for_some(
+        std::span(sockets).first(1 + peers_.size()),
+        rests ? rest_time : (ownership_.is_owned() ? Ownership::look_interval : milliseconds(-1)));
     if (interrupted) return;
     ownership_.look(Ownership::Clock::now());
     if (rests) strangers_in_row_ = 0;

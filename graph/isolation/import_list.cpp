@@ -86,7 +86,7 @@ constexpr Entry declarations[] = {
 };
 
 // Jarol's own: what a task's form and values of changing size call.
-constexpr Entry own[] = {
+constexpr Entry own_functions[] = {
     {"|jarol::require_default_floating_point()|jarol::restore_floating_point()|jarol::keep_text(*|",
      "how the runtime contains what a task throws"},
     {"|__cxa_allocate_exception|__cxa_end_catch|", "exceptions, as the command passes them on to the C++ library"},
@@ -232,7 +232,7 @@ std::string for_double(const std::string& name) {
 
 bool is_own_library(const std::string& name) {
   const std::string declaration = declaration_of(name);
-  return std::any_of(std::begin(own), std::end(own),
+  return std::any_of(std::begin(own_functions), std::end(own_functions),
                      [&](const Entry& entry) { return fits(entry.names, declaration, false); });
 }
 
@@ -240,7 +240,8 @@ std::string reason_for(const std::string& name) {
   if (!kind_of_refused(name).empty() && !is_own_library(name)) return "";
   if (name.starts_with("_Z")) {
     const std::string declaration = declaration_of(name);
-    for (const std::span<const Entry> list : {std::span<const Entry>(declarations), std::span<const Entry>(own)})
+    for (const std::span<const Entry> list :
+         {std::span<const Entry>(declarations), std::span<const Entry>(own_functions)})
       for (const Entry& entry : list)
         if (fits(entry.names, declaration, false)) return entry.why;
     return "";

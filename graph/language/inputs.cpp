@@ -10,7 +10,7 @@ namespace {
 
 using Identity = std::pair<dev_t, ino_t>;
 
-std::mutex mutex;
+std::mutex inputs_mutex;
 
 std::map<Identity, std::string>& names() {
   static std::map<Identity, std::string> all;
@@ -21,7 +21,7 @@ std::map<Identity, std::string>& names() {
 
 void note_input(const std::string& path, const struct stat& status) {
   if (!S_ISREG(status.st_mode)) return;
-  const std::lock_guard lock(mutex);
+  const std::lock_guard lock(inputs_mutex);
   names().emplace(Identity(status.st_dev, status.st_ino), path);
 }
 
@@ -31,7 +31,7 @@ void note_input(const std::string& path) {
 }
 
 std::vector<std::string> inputs_read() {
-  const std::lock_guard lock(mutex);
+  const std::lock_guard lock(inputs_mutex);
   std::vector<std::string> all;
   for (const auto& [identity, name] : names()) {
     struct stat now {};
@@ -44,7 +44,7 @@ std::vector<std::string> inputs_read() {
 std::string input_at(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) return "";
-  const std::lock_guard lock(mutex);
+  const std::lock_guard lock(inputs_mutex);
   const Identity identity(status.st_dev, status.st_ino);
   const auto found = names().find(identity);
   if (found == names().end()) return "";

@@ -32,7 +32,7 @@ struct File {
   }
 };
 
-std::string read(const File& file, const std::string& path, std::size_t max) {
+std::string read_all(const File& file, const std::string& path, std::size_t max) {
   struct stat status {};
   if (::fstat(file.number, &status) != 0) fail(path, std::strerror(errno));
   if (S_ISDIR(status.st_mode)) fail(path, "it is a directory");
@@ -54,13 +54,13 @@ std::string read(const File& file, const std::string& path, std::size_t max) {
 std::shared_ptr<const Source> read_from_disk(const std::string& path, std::size_t max) {
   if (path == "-") {
     static std::shared_ptr<const Source> from_stdin;  // it can be read once
-    if (!from_stdin) from_stdin = std::make_shared<Source>(Source{path, read({STDIN_FILENO}, path, max)});
+    if (!from_stdin) from_stdin = std::make_shared<Source>(Source{path, read_all({STDIN_FILENO}, path, max)});
     return from_stdin;
   }
   // a FIFO that nobody writes is not waited for
   const File file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)};
   if (file.number < 0) fail(path, std::strerror(errno));
-  return std::make_shared<Source>(Source{path, read(file, path, max)});
+  return std::make_shared<Source>(Source{path, read_all(file, path, max)});
 }
 
 }  // namespace

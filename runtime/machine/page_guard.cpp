@@ -22,7 +22,7 @@ constexpr std::uintptr_t page = 4096;
 // glibc lays one page that can't be touched below each stack; more is what an arena has to grow into
 constexpr std::uintptr_t largest_stack_guard = 64 << 10;
 
-std::atomic<PageGuard*> guard{nullptr};
+std::atomic<PageGuard*> page_guard{nullptr};
 
 pid_t this_thread() { return static_cast<pid_t>(::syscall(SYS_gettid)); }
 
@@ -65,13 +65,13 @@ PageGuard::PageGuard() {
   const timespec no_time{};
   ::nanosleep(&no_time, nullptr);
   ::mprotect(flags, page, PROT_READ | PROT_WRITE);
-  guard.store(this);
+  page_guard.store(this);
 }
 
 PageGuard::~PageGuard() {
   open();
   open_all();
-  guard.store(nullptr);
+  page_guard.store(nullptr);
   ::munmap(flags_, page);
   ::close(maps_);
 }
@@ -217,20 +217,20 @@ std::atomic<bool>& PageGuard::written_of(const Region& region) const {
 bool PageGuard::is_written(const Region& region) const { return written_of(region).load(); }
 
 void PageGuard::suspend() {
-  PageGuard* const of = guard.load();
+  PageGuard* const of = page_guard.load();
   if (of == nullptr || !of->flags_->closed.load() || of->flags_->thread.load() != this_thread()) return;
   of->open();
   of->flags_->suspended.store(true);
 }
 
 bool PageGuard::is_suspended() {
-  const PageGuard* const of = guard.load();
+  const PageGuard* const of = page_guard.load();
   return of != nullptr && of->flags_->suspended.load() && of->flags_->thread.load() == this_thread();
 }
 
 void PageGuard::resume() {
   if (!is_suspended()) return;
-  PageGuard& of = *guard.load();
+  PageGuard& of = *page_guard.load();
   of.close({reinterpret_cast<std::byte*>(of.own_.begin), of.own_.end - of.own_.begin});
 }
 
@@ -254,7 +254,7 @@ void PageGuard::wait_for_others() const {
 }
 
 PageGuard::Fault PageGuard::judge(const void* address) {
-  const PageGuard* const of = guard.load();
+  const PageGuard* const of = page_guard.load();
   if (of == nullptr) return Fault::other;
   const bool guarded = of->flags_->thread.load() == this_thread();
   const bool closed = of->flags_->closed.load();
@@ -282,14 +282,14 @@ void PageGuard::open_for_good(const Region& region) const {
 }
 
 void PageGuard::lift() {
-  const PageGuard* const of = guard.load();
+  const PageGuard* const of = page_guard.load();
   if (of == nullptr || (!of->flags_->closed.load() && of->flags_->all_open.load())) return;
   of->open_all();
   of->flags_->closed.store(false);
 }
 
 std::string_view PageGuard::name_of(const void* address) {
-  const PageGuard* const of = guard.load();
+  const PageGuard* const of = page_guard.load();
   const Region* const found = of == nullptr ? nullptr : of->find(address);
   return found == nullptr ? std::string_view() : std::string_view(found->name);
 }

@@ -9,7 +9,7 @@
 
 namespace jarol {
 namespace {
-constexpr std::uint64_t ended = std::uint64_t{1} << 63;
+constexpr std::uint64_t ended_bit = std::uint64_t{1} << 63;
 }  // namespace
 
 Recorder::Recorder(std::vector<RecordSink*> sinks, Duration hand_on_period)
@@ -192,7 +192,7 @@ void Recorder::close() {
   if (!thread_.joinable()) return;
   if (is_cut_off_) lost_values_.add_all(now_, used_);
   if (used_ > 0 && !is_cut_off_) publish_chunk();
-  written_.fetch_or(ended, std::memory_order_release);
+  written_.fetch_or(ended_bit, std::memory_order_release);
   bell_.ring();
   thread_.join();
   failures_.rethrow_all();
@@ -235,7 +235,7 @@ void Recorder::cut_off() {
 bool Recorder::drain_next() {
   const std::lock_guard lock(draining_);
   const std::uint64_t read = read_.load(std::memory_order_relaxed);
-  if ((written_.load(std::memory_order_acquire) & ~ended) == read) return false;
+  if ((written_.load(std::memory_order_acquire) & ~ended_bit) == read) return false;
   const std::size_t chunk = read % chunks, bytes = bytes_[chunk];
   others_.take(bytes > chunk_bytes ? large_.at(chunk) : memory_.get() + chunk * chunk_bytes, bytes);
   read_.store(read + 1, std::memory_order_release);
@@ -246,7 +246,7 @@ bool Recorder::drain_next() {
 void Recorder::run() {
   for (bool has_ended = false; !has_ended;) {
     const std::uint32_t rings = bell_.rings();
-    const bool ends = (written_.load(std::memory_order_acquire) & ended) != 0;
+    const bool ends = (written_.load(std::memory_order_acquire) & ended_bit) != 0;
     DirectSink* const carrying = carrying_.load(std::memory_order_acquire);
     const bool has_carried = carrying != nullptr && carrying->carry();
     if (drain_next() || has_carried)

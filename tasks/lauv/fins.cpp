@@ -9,14 +9,12 @@
 namespace jarol::tasks {
 namespace {
 
-using State = FinWatch::State;
-
 // From when one has reported each that is fitted has its time.
 bool is_any_heard(const Servos& servos) {
   return std::any_of(servos.fins.begin(), servos.fins.end(), [](const ServoReading& servo) { return servo.count > 0; });
 }
 
-void look(const FinWatch::Param& p, std::size_t i, const ServoReading& servo, double dt, State& state) {
+void look(const FinWatch::Param& p, std::size_t i, const ServoReading& servo, double dt, FinWatch::State& state) {
   FinState& fin = state.fins.states[i];
   if (servo.count < 0 || fin == FinState::stuck) return;
   const bool fresh = servo.count > state.counts[i], first = fresh && state.counts[i] == 0;
@@ -37,7 +35,7 @@ void look(const FinWatch::Param& p, std::size_t i, const ServoReading& servo, do
   state.fins.angles[i] = servo.angle;
 }
 
-void look(const FinWatch::Param& p, const PropellerReading& propeller, double dt, State& state) {
+void look(const FinWatch::Param& p, const PropellerReading& propeller, double dt, FinWatch::State& state) {
   FinState& found = state.fins.propeller;
   state.propeller_silence += dt;
   if (propeller.count <= state.propeller_count || found == FinState::stuck) return;

@@ -14,19 +14,16 @@
 namespace jarol::tasks {
 namespace {
 
-using Param = LauvSupervisor::Param;
-using State = LauvSupervisor::State;
-
 constexpr double in_water = 0.5;        // between what a leak sensor reads, 0 or 1
 constexpr double out_of_reach = -1000;  // m, of depth
 constexpr std::array leak_alarms{Alarm::leak, Alarm::leak1, Alarm::leak2, Alarm::leak3};  // by their order
 
 // By the gauge, or by the pressure where no gauge is fitted.
-double depth_of(const Param& p, const Instruments& i) {
+double depth_of(const LauvSupervisor::Param& p, const Instruments& i) {
   return i.depth.count < 0 && i.pressure.count > 0 ? calc_depth(p.reckoning.water, i.pressure.value) : i.depth.value;
 }
 
-Alarm find_lost(const Param& p, const Instruments& i, double dt, State& state) {
+Alarm find_lost(const LauvSupervisor::Param& p, const Instruments& i, double dt, LauvSupervisor::State& state) {
   struct Watched {
     std::int64_t count;
     Alarm lost;
@@ -83,7 +80,7 @@ Alarm find_leak(const Instruments& i, Alarm now) {
 }
 
 // Since any instrument was heard last.
-double calc_silence(const State& state) {
+double calc_silence(const LauvSupervisor::State& state) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < state.counts.size(); ++k)
     if (state.counts[k] >= 0) least = std::min(least, state.silences[k]);
@@ -91,13 +88,13 @@ double calc_silence(const State& state) {
 }
 
 // Speed of the propeller through quadratic and linear drag, at once and for ever.
-double calc_force(const Param& p, double rpm, double speed) {
+double calc_force(const LauvSupervisor::Param& p, double rpm, double speed) {
   const double n = rpm * std::numbers::pi / 30;  // rad/s
   const double thrust = (p.thrust_coefficient * n - p.advance_coefficient * speed) * std::abs(n);
   return limited(thrust, p.max_thrust) - p.surge_drag * speed * (1 + p.reckoning.drag_growth * std::abs(speed));
 }
 
-Alarm find_liar(const Param& p, const Instruments& i, double dt, State& state) {
+Alarm find_liar(const LauvSupervisor::Param& p, const Instruments& i, double dt, LauvSupervisor::State& state) {
   const auto told = [](const auto&... readings) { return (... && (readings.count > 0)); };
   const bool turns = told(i.attitude, i.rates), moves = told(i.velocity, i.rpm),
              sounds = told(i.altitude, i.depth, i.attitude);
@@ -150,10 +147,12 @@ Alarm find_liar(const Param& p, const Instruments& i, double dt, State& state) {
   return found;
 }
 
-bool is_low(const Param& p, const Reading& voltage) { return voltage.count > 0 && voltage.value < p.min_voltage; }
+bool is_low(const LauvSupervisor::Param& p, const Reading& voltage) {
+  return voltage.count > 0 && voltage.value < p.min_voltage;
+}
 
 // A battery that is flat stops propeller and servos, so the next reading of its voltage is waited for.
-Alarm find_actuator(const Param& p, const LauvSupervisor::In& in, State& state) {
+Alarm find_actuator(const LauvSupervisor::Param& p, const LauvSupervisor::In& in, LauvSupervisor::State& state) {
   constexpr Alarm alarms[] = {Alarm::bottom_fin, Alarm::port_fin, Alarm::starboard_fin, Alarm::top_fin};
   const Reading& voltage = in.instruments.voltage;
   Alarm found = in.fins.propeller == FinState::stuck ? Alarm::propeller : Alarm::none;
@@ -167,7 +166,7 @@ Alarm find_actuator(const Param& p, const LauvSupervisor::In& in, State& state) 
   return is_low(p, voltage) ? Alarm::voltage_limit : found;
 }
 
-FinCheck check_fins(const Param& p, const FinCondition& fins, double dt, State& state) {
+FinCheck check_fins(const LauvSupervisor::Param& p, const FinCondition& fins, double dt, LauvSupervisor::State& state) {
   const bool none =
       std::all_of(fins.states.begin(), fins.states.end(), [](FinState fin) { return fin == FinState::unknown; });
   state.servos_silent_for = none && state.heard ? state.servos_silent_for + dt : 0;
@@ -180,7 +179,7 @@ double calc_heave(const Instruments& i) {
 
 bool moves_known(const Instruments& i) { return i.attitude.count > 0 && i.velocity.count > 0; }
 
-void note_heave(const Param& p, const Instruments& i, double dt, State& state) {
+void note_heave(const LauvSupervisor::Param& p, const Instruments& i, double dt, LauvSupervisor::State& state) {
   if (!moves_known(i)) return;
   const double heave = calc_heave(i);
   if (!std::exchange(state.heave_started, true)) state.heave = heave;
@@ -191,13 +190,13 @@ void note_heave(const Param& p, const Instruments& i, double dt, State& state) {
 // fins and hull go with the square of u, so that this is one length at any speed: of the submarines in specs/vehicles
 // 1.6 to 1.8 m where they sink steadily at 0.7 to 2 m/s, up to 2.3 m at 0.5 m/s or while the nose still goes down.
 // Waves and the noise of the log move it to and fro across the hull, and no deeper: of that what lasts counts.
-double calc_way_down(const Param& p, const Instruments& i, const State& state) {
+double calc_way_down(const LauvSupervisor::Param& p, const Instruments& i, const LauvSupervisor::State& state) {
   if (!moves_known(i)) return 0;
   const double z_dot = -i.velocity.x * std::sin(i.attitude.y) + std::min(calc_heave(i), state.heave);
   return p.levelling_length * std::max(z_dot, 0.0) / std::max(i.velocity.x, p.levelling.min_speed);
 }
 
-Alarm find_exceeded(const Param& p, const LauvSupervisor::In& in, const State& state) {
+Alarm find_exceeded(const LauvSupervisor::Param& p, const LauvSupervisor::In& in, const LauvSupervisor::State& state) {
   const Instruments& i = in.instruments;
   if (in.contact.silence > p.operator_timeout) return Alarm::operator_lost;
   const double way_down = calc_way_down(p, i, state);

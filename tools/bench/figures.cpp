@@ -112,6 +112,7 @@ Figure load_million(const std::string& name) {
 struct Entry {
   std::string name;
   Figure (*measure)(const std::string& name, int repeats);
+  bool is_of_tree = false;
 };
 
 // All figures, in their order.
@@ -169,14 +170,15 @@ const std::vector<Entry>& entries() {
         {"layout_200", [](const std::string& name, int repeats) { return measure_layout(name, repeats); }},
     };
     if (has_vehicles())
-      made.insert(made.end(),
-                  {
-                      {"dive", [](const std::string&, int repeats) { return measure_dive(repeats); }},
-                      {"dive_rigid", [](const std::string&, int repeats) { return measure_dive_rigid(repeats); }},
-                      {"hover", [](const std::string&, int repeats) { return measure_hover(repeats); }},
-                      {"hover_rigid", [](const std::string&, int repeats) { return measure_hover_rigid(repeats); }},
-                      {"checkpoint", [](const std::string&, int repeats) { return measure_checkpoint(repeats); }},
-                  });
+      made.insert(
+          made.end(),
+          {
+              {"dive", [](const std::string&, int repeats) { return measure_dive(repeats); }, true},
+              {"dive_rigid", [](const std::string&, int repeats) { return measure_dive_rigid(repeats); }, true},
+              {"hover", [](const std::string&, int repeats) { return measure_hover(repeats); }, true},
+              {"hover_rigid", [](const std::string&, int repeats) { return measure_hover_rigid(repeats); }, true},
+              {"checkpoint", [](const std::string&, int repeats) { return measure_checkpoint(repeats); }, true},
+          });
     return made;
   }();
   return all;
@@ -188,6 +190,11 @@ std::vector<std::string> figure_names() {
   std::vector<std::string> names;
   for (const Entry& entry : entries()) names.push_back(entry.name);
   return names;
+}
+
+bool is_of_tree(const std::string& name) {
+  return std::any_of(entries().begin(), entries().end(),
+                     [&](const Entry& entry) { return entry.name == name && entry.is_of_tree; });
 }
 
 Figure measure(const std::string& name, int repeats) {

@@ -67,7 +67,9 @@ Figure measure_rigid(const std::string& name, const std::string& text, const Loo
 
 }  // namespace
 
-bool has_vehicles() { return std::filesystem::exists(dive) && std::filesystem::exists(flight); }
+bool has_vehicles() { return true; }
+
+bool has_graphs() { return std::filesystem::exists(dive) && std::filesystem::exists(flight); }
 
 Figure measure_dive(int repeats) {
   PlainSubmarine plain(vehicles::SubmarineParameters{});
@@ -133,6 +135,7 @@ Figure measure_checkpoint(int repeats) {
 #else
 
 bool has_vehicles() { return false; }
+bool has_graphs() { return false; }
 
 Figure measure_dive(int) { throw std::logic_error("no vehicles are built"); }
 Figure measure_dive_rigid(int) { throw std::logic_error("no vehicles are built"); }

@@ -6,8 +6,11 @@
 
 namespace jarol::bench {
 
-/// True where the graphs' files are at hand and vehicles are built.
+/// Whether vehicles are built.
 bool has_vehicles();
+
+/// Whether the graphs that these figures run are here, in the working directory.
+bool has_graphs();
 
 /// Microseconds for 10 ms of the dive; 100 of them are 100 times real time.
 Figure measure_dive(int repeats);

@@ -2,13 +2,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "graph/language/problems.h"
 #include "graph/text/errors.h"
 #include "tools/bench/figures.h"
+#include "tools/bench/vehicles.h"
 #include "tools/commands/commands.h"
 #include "tools/report/command_line.h"
 #include "tools/report/json_line.h"
@@ -22,13 +25,30 @@ struct BenchOptions {
   bool json = false;
 };
 
-int run_bench(const BenchOptions& options) {
-  const std::vector<std::string> names = options.names.empty() ? bench::figure_names() : options.names;
-  const auto known = bench::figure_names();
-  for (const std::string& name : names)
+// All that can be measured here, unless some are named.
+std::vector<std::string> figures_of(const BenchOptions& options) {
+  std::vector<std::string> known = bench::figure_names(), left_out;
+  const bool in_tree = bench::has_graphs();
+  for (const std::string& name : options.names) {
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw InputError("there is no figure '" + name + "'" + did_you_mean(name, known) +
                        "; there are: " + list_of(known));
+    if (bench::is_of_tree(name) && !in_tree)
+      throw InputError("'" + name + "' runs graphs of Jarol's own tree, which are not here: 'jarol bench " + name +
+                       "' runs from the root of that");
+  }
+  if (!options.names.empty()) return options.names;
+  if (in_tree) return known;
+  std::copy_if(known.begin(), known.end(), std::back_inserter(left_out), bench::is_of_tree);
+  std::erase_if(known, bench::is_of_tree);
+  if (!left_out.empty())
+    std::cerr << "note: left out are " << list_of(left_out)
+              << ", which run graphs of Jarol's own tree: from the root of that\n";
+  return known;
+}
+
+int run_bench(const BenchOptions& options) {
+  const std::vector<std::string> names = figures_of(options);
   auto figures = nlohmann::ordered_json::array();
   bool all_met = true;
   if (!options.json)

@@ -32,8 +32,6 @@
 namespace jarol::tools {
 namespace {
 
-using analysis::Verdict;
-
 struct CheckCommandOptions {
   std::vector<std::string> files;
   Overrides overrides;
@@ -51,9 +49,10 @@ struct CheckCommandOptions {
 
 int exit_code_of_checked(const CheckReport& report) {
   const std::optional<bool> chains = chains_hold(report);
-  if (report.result.verdict == Verdict::not_schedulable || chains == false || longer_than_stated(report) != nullptr)
+  if (report.result.verdict == analysis::Verdict::not_schedulable || chains == false ||
+      longer_than_stated(report) != nullptr)
     return exit_negative;
-  return report.result.verdict == Verdict::schedulable && chains ? exit_good : exit_unfinished;
+  return report.result.verdict == analysis::Verdict::schedulable && chains ? exit_good : exit_unfinished;
 }
 
 // The worst of the verdicts: bad input, then not schedulable, then undecided.

@@ -72,7 +72,7 @@ Json task_json(const Task& task) {
   return json;
 }
 
-Json schedule_json(const Graph& graph, const analysis::Result& result) {
+Json analysis_json(const Graph& graph, const analysis::Result& result) {
   const analysis::TimeLine line =
       analysis::time_line_of(analysis::system_of(graph), result, {.until_it_repeats = true, .max_activations = 3000});
   auto slices = Json::array();
@@ -98,7 +98,7 @@ void describe_tasks(const Graph& graph, Json& to) {
   to["verdict"] = {{"kind", word_of(result.verdict)}, {"reason", result.reason}};
   const bool stated = std::all_of(graph.tasks.begin(), graph.tasks.end(), [](const Task& t) { return t.wcet; });
   if (stated && !graph.tasks.empty() && result.core.size() == graph.tasks.size())
-    to["schedule"] = schedule_json(graph, result);
+    to["schedule"] = analysis_json(graph, result);
 }
 
 }  // namespace jarol::tools::console

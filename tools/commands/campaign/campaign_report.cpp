@@ -18,7 +18,7 @@ using campaign::Outcome;
 using campaign::Summary;
 using Json = nlohmann::ordered_json;
 
-std::string number_text(double number, const std::string& unit) {
+std::string measured_text(double number, const std::string& unit) {
   if (unit == "rad") return fmt::format("{:.5g} deg", number * 180.0 / std::numbers::pi);
   return fmt::format("{:.5g}{}{}", number, unit.empty() ? "" : " ", unit);
 }
@@ -48,9 +48,9 @@ std::string table_of(const Summary& summary) {
   for (const MetricSummary& m : summary.metrics) {
     if (m.count > 0)
       text += fmt::format("  {:<{}}  {:>12}  {:>12}  {:>12}  {:>12}  {:>12}\n", m.name, width,
-                          number_text(m.min->value, m.unit), number_text(m.percentiles[0], m.unit),
-                          number_text(m.percentiles[2], m.unit), number_text(m.percentiles[4], m.unit),
-                          number_text(m.max->value, m.unit));
+                          measured_text(m.min->value, m.unit), measured_text(m.percentiles[0], m.unit),
+                          measured_text(m.percentiles[2], m.unit), measured_text(m.percentiles[4], m.unit),
+                          measured_text(m.max->value, m.unit));
     for (const auto& [word, count] : m.words)
       text += fmt::format("  {:<{}}  {}: {} runs\n", m.name, width, word, count);
     if (m.missing > 0) text += fmt::format("  {:<{}}  {}\n", m.name, width, valued_text(m, summary.runs));
@@ -93,7 +93,7 @@ Json to_json(const MetricSummary& m, const expect::Condition& condition, bool is
 std::string cases_text(const MetricSummary& m, const CampaignOutcome& outcome) {
   std::string text;
   for (const auto& [word, one] : cases_of(m))
-    text += fmt::format("  {} {}: {} in run {}\n    {}\n", word, m.name, number_text(one.value, m.unit), one.index,
+    text += fmt::format("  {} {}: {} in run {}\n    {}\n", word, m.name, measured_text(one.value, m.unit), one.index,
                         printable(outcome.repeat(one.index)));
   if (m.first_bad_without)
     text += fmt::format("  bad without a value of {}: run {}{}\n    {}\n", m.name, *m.first_bad_without,

@@ -8,7 +8,6 @@
 namespace jarol::tools {
 namespace {
 
-using analysis::Verdict;
 using Json = nlohmann::ordered_json;
 
 template <class T>

@@ -15,8 +15,6 @@
 namespace jarol::tools {
 namespace {
 
-using analysis::Verdict;
-
 // To the microsecond, unless that would leave something out.
 std::string milliseconds(Duration time) {
   const std::int64_t ns = time.count();
@@ -82,13 +80,13 @@ std::string overload_text(const Graph& graph) {
 
 std::string headline(const CheckReport& r) {
   switch (r.result.verdict) {
-    case Verdict::schedulable:
+    case analysis::Verdict::schedulable:
       return fmt::format("{}: SCHEDULABLE on {}, {}{}: {}\n", printable(r.file), platform_text(r.graph->platform),
                          word_of(r.result.evidence), broken_limits(r), r.result.reason);
-    case Verdict::unknown:
+    case analysis::Verdict::unknown:
       return fmt::format("{}: UNKNOWN on {}{}: {}\n", printable(r.file), platform_text(r.graph->platform),
                          broken_limits(r), r.result.reason);
-    case Verdict::not_schedulable: break;
+    case analysis::Verdict::not_schedulable: break;
   }
   std::string text = printable(r.file) + ": NOT SCHEDULABLE";
   if (const std::string overload = overload_text(*r.graph); !overload.empty())
@@ -264,7 +262,7 @@ std::string to_text(const CheckReport& r) {
   std::string text = measured_headline(r) + headline(r) + demand_text(r) + gantt_text(*r.graph, r.result) +
                      task_table(r) + core_lines(r) + response_line(r);
   text += "  assumed: " + assumption(*r.graph) + "\n" + sensitivity_lines(r) + chain_lines(r) + late_outs(*r.graph);
-  if (r.result.verdict == Verdict::unknown &&
+  if (r.result.verdict == analysis::Verdict::unknown &&
       std::any_of(r.graph->tasks.begin(), r.graph->tasks.end(), [](const Task& t) { return !t.wcet; }))
     text +=
         "  'check --measure' measures how long they take here, 'check --write' writes that into the file with a "
