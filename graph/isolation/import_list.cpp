@@ -189,7 +189,7 @@ bool holds_word(std::string_view list, const std::string& word) {
 }
 
 // Is a declaration one of the patterns between bars? A pattern alone is a beginning where `as_beginning`.
-bool fits(std::string_view patterns, std::string_view declaration, bool as_beginning) {
+bool matches_any(std::string_view patterns, std::string_view declaration, bool as_beginning) {
   for (std::size_t at = 1; at < patterns.size();) {
     const std::size_t end = patterns.find('|', at);
     const std::string_view pattern = patterns.substr(at, end - at);
@@ -233,7 +233,7 @@ std::string for_double(const std::string& name) {
 bool is_own_library(const std::string& name) {
   const std::string declaration = declaration_of(name);
   return std::any_of(std::begin(own_functions), std::end(own_functions),
-                     [&](const Entry& entry) { return fits(entry.names, declaration, false); });
+                     [&](const Entry& entry) { return matches_any(entry.names, declaration, false); });
 }
 
 std::string reason_for(const std::string& name) {
@@ -243,7 +243,7 @@ std::string reason_for(const std::string& name) {
     for (const std::span<const Entry> list :
          {std::span<const Entry>(declarations), std::span<const Entry>(own_functions)})
       for (const Entry& entry : list)
-        if (fits(entry.names, declaration, false)) return entry.why;
+        if (matches_any(entry.names, declaration, false)) return entry.why;
     return "";
   }
   for (const Entry& entry : functions)
@@ -273,7 +273,7 @@ std::string kind_of_refused(const std::string& name) {
     if (holds_word(refused.names, name)) return refused.kind;
   const std::string declaration = declaration_of(name);
   for (const Refused& refused : refused_beginnings)
-    if (fits(refused.names, declaration, true)) return refused.kind;
+    if (matches_any(refused.names, declaration, true)) return refused.kind;
   return "";
 }
 

@@ -13,7 +13,7 @@ using Clock = std::chrono::steady_clock;
 
 std::atomic<std::int64_t> asked_at{0};  // ns of that clock; 0: nobody has asked
 
-std::int64_t clock_count() {
+std::int64_t monotonic_ns() {
   timespec time{};
   ::clock_gettime(CLOCK_MONOTONIC, &time);
   return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
@@ -23,7 +23,7 @@ std::int64_t clock_count() {
 
 void ask_to_end() {
   std::int64_t before = 0;
-  asked_at.compare_exchange_strong(before, clock_count());
+  asked_at.compare_exchange_strong(before, monotonic_ns());
 }
 
 void forget_asked_to_end() { asked_at.store(0); }

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double earth_acceleration = 9810;  // mm/s^2
+constexpr double gravity_mm = 9810;  // mm/s^2
 
 // one look-ahead of a period: the rate counts for two of them
 void filter_angle(double& angle, double measured, double rate, double dt) {
@@ -90,7 +90,7 @@ void OriginalFilter::run(const Param& p, const Tick& tick, const In& in, State& 
   if (settled) state.yaw = 0;
 
   const Eigen::Matrix3d R = rotation_of(s.roll, s.pitch, s.yaw);
-  const Vector3d a = R * (1e3 * Vector3d(s.a_x, s.a_y, s.a_z)) + Vector3d(0, 0, earth_acceleration);
+  const Vector3d a = R * (1e3 * Vector3d(s.a_x, s.a_y, s.a_z)) + Vector3d(0, 0, gravity_mm);
   // its constants of the lasers lead from these to the centre of gravity
   const Vector3d sonar_b(-95, -95, 55), laser_x_b(-70, 75, 80), laser_y_b(50, -77, 80);
   const double z = (R * (sonar_b + Vector3d(0, 0, 1e3 * s.sonar))).z();

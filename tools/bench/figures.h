@@ -20,7 +20,7 @@ struct Figure {
 /// What can be measured, in its order.
 std::vector<std::string> figure_names();
 
-/// Of those, what runs graphs of Jarol's own tree: from its root alone.
+/// Of those, what runs graphs of Jarol's source tree: at its root alone.
 bool is_of_tree(const std::string& name);
 
 /// Measures one figure; `repeats` interleaved repeats, of which the least counts.

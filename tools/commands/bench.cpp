@@ -27,23 +27,24 @@ struct BenchOptions {
 
 // All that can be measured here, unless some are named.
 std::vector<std::string> figures_of(const BenchOptions& options) {
-  std::vector<std::string> known = bench::figure_names(), left_out;
+  std::vector<std::string> known = bench::figure_names();
   const bool in_tree = bench::has_graphs();
   for (const std::string& name : options.names) {
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw InputError("there is no figure '" + name + "'" + did_you_mean(name, known) +
                        "; there are: " + list_of(known));
     if (bench::is_of_tree(name) && !in_tree)
-      throw InputError("'" + name + "' runs graphs of Jarol's own tree, which are not here: 'jarol bench " + name +
-                       "' runs from the root of that");
+      throw InputError("'" + name + "' runs graphs of Jarol's source tree, which are not here: start 'jarol bench " +
+                       name + "' at its root");
   }
   if (!options.names.empty()) return options.names;
   if (in_tree) return known;
+  std::vector<std::string> left_out;
   std::copy_if(known.begin(), known.end(), std::back_inserter(left_out), bench::is_of_tree);
   std::erase_if(known, bench::is_of_tree);
   if (!left_out.empty())
     std::cerr << "note: left out are " << list_of(left_out)
-              << ", which run graphs of Jarol's own tree: from the root of that\n";
+              << ", which run graphs of Jarol's source tree: start it at its root\n";
   return known;
 }
 
