@@ -208,7 +208,7 @@ void lengthen(V& value) {
   } else if constexpr (Array<V>) {
     lengthen(value[0]);
   } else if constexpr (Described<V>) {
-    with_fields(V::fields(), [&](auto... f) { (lengthen(value.*(f.pointer)), ...); });
+    with_described(value, [](auto&... member) { (lengthen(member), ...); });
   }
 }
 

@@ -1,12 +1,9 @@
 #include "distributers/session/logged_texts.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <tuple>
 #include <utility>
 
-#include "graph/language/quantities.h"
-#include "graph/text/escape.h"
 #include "runtime/plan/output.h"
 
 namespace jarol {
@@ -35,10 +32,10 @@ void LoggedTexts::take(Duration instant, std::uint32_t index, const void* value)
   if (text.empty()) return;
   if (++output.count > max_kept) return;
   // workers publish the outputs of one instant in any order
-  const auto is_before = [](const Logged& a, const Logged& b) {
+  const auto is_before = [](const Text& a, const Text& b) {
     return std::tie(a.instant, a.output) < std::tie(b.instant, b.output);
   };
-  Logged logged{instant, output.name, output.last};
+  Text logged{instant, output.name, output.last};
   const auto at = std::upper_bound(kept_.begin(), kept_.end(), logged, is_before);
   kept_.insert(at, std::move(logged));
 }
@@ -50,24 +47,12 @@ void LoggedTexts::serialize(Archive& archive) {
   archive(kept_);
 }
 
-std::string LoggedTexts::to_text() const {
+LoggedTexts::Noted LoggedTexts::noted() const {
   const std::lock_guard lock(mutex_);
-  std::string text;
-  for (const Logged& logged : kept_)
-    text += "  logged      " + logged.output + " at " + seconds_text(logged.instant) + " s: " + printable(logged.text) +
-            "\n";
+  Noted noted{kept_, {}};
   for (const Output& output : outputs_)
-    if (output.count > max_kept)
-      text += "  logged      " + output.name + ": and " + std::to_string(output.count - max_kept) + " texts more\n";
-  return text;
-}
-
-nlohmann::ordered_json LoggedTexts::to_json() const {
-  const std::lock_guard lock(mutex_);
-  auto json = nlohmann::ordered_json::array();
-  for (const Logged& logged : kept_)
-    json.push_back({{"output", logged.output}, {"instant_ns", logged.instant.count()}, {"text", logged.text}});
-  return json;
+    if (output.count > max_kept) noted.more.emplace_back(output.name, output.count - max_kept);
+  return noted;
 }
 
 }  // namespace jarol

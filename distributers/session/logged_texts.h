@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <mutex>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "graph/model/graph.h"
@@ -30,9 +30,18 @@ class LoggedTexts : public RecordSink {
   /// What was noted so far, of the same graph, while nothing is handed on.
   void serialize(Archive& archive);
 
-  /// What was noted so far: a line per text, and an array of them.
-  std::string to_text() const;
-  nlohmann::ordered_json to_json() const;
+  struct Text {
+    Duration instant{};
+    std::string output, text;
+    void serialize(Archive& archive) { archive(instant, output, text); }
+  };
+  /// What was noted so far, by instant, texts of one by output, and of which outputs how many texts more there were
+  /// than are kept.
+  struct Noted {
+    std::vector<Text> texts;
+    std::vector<std::pair<std::string, std::size_t>> more;
+  };
+  Noted noted() const;
 
  private:
   struct Output {
@@ -41,16 +50,11 @@ class LoggedTexts : public RecordSink {
     std::string last{};
     std::size_t count = 0;  // of texts; the first are kept
   };
-  struct Logged {
-    Duration instant{};
-    std::string output, text;
-    void serialize(Archive& archive) { archive(instant, output, text); }
-  };
 
   const Output* find(std::uint32_t index) const;
 
   std::vector<Output> outputs_;  // by index
-  std::vector<Logged> kept_;     // by instant, those of one by output
+  std::vector<Text> kept_;       // by instant, those of one by output
   mutable std::mutex mutex_;     // of a run that has not ended, too, there is a report
 };
 

@@ -1,11 +1,8 @@
 #include "distributers/session/status_events.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
-
-#include "graph/language/quantities.h"
 
 namespace jarol {
 namespace {
@@ -89,49 +86,26 @@ std::vector<StatusEvents::Change> StatusEvents::in_order() const {
   return all;
 }
 
-std::string StatusEvents::to_text() const {
+StatusEvents::Noted StatusEvents::noted() const {
   const std::lock_guard lock(mutex_);
-  std::string text;
+  Noted noted;
   std::vector<bool> begun(watches_.size(), false);
   for (const Change& change : in_order()) {
     const Watch& watch = watches_[change.watch];
-    std::string words, meanings;
+    Event event{.communicator = graph_.communicators[watch.communicator].name, .instant = change.instant, .values = {}};
     for (std::size_t i = 0; i < watch.leaves.size(); ++i) {
       const Leaf& leaf = watch.leaves[i];
-      // all of them where it begins, then what changes
-      if (begun[change.watch] && change.before[i] == change.after[i]) continue;
-      const Word word = word_of(*leaf.type, change.after[i]);
-      words += (words.empty() ? "" : ", ") + leaf.path + (leaf.path.empty() ? "" : " ") + word.name;
-      if (!word.meaning.empty()) meanings += (meanings.empty() ? ": " : ", ") + word.meaning;
+      Word word = word_of(*leaf.type, change.after[i]);
+      event.values.push_back({leaf.path, std::move(word.name), std::move(word.meaning),
+                              !begun[change.watch] || change.before[i] != change.after[i]});
     }
     begun[change.watch] = true;
-    text += "  event       " + graph_.communicators[watch.communicator].name + " at " + seconds_text(change.instant) +
-            " s: " + words + meanings + "\n";
+    noted.events.push_back(std::move(event));
   }
   for (const Watch& watch : watches_)
     if (watch.count > watch.kept.size())
-      text += "  event       " + graph_.communicators[watch.communicator].name + ": and " +
-              std::to_string(watch.count - watch.kept.size()) + " changes more\n";
-  return text;
-}
-
-nlohmann::ordered_json StatusEvents::to_json() const {
-  const std::lock_guard lock(mutex_);
-  auto json = nlohmann::ordered_json::array();
-  for (const Change& change : in_order()) {
-    const Watch& watch = watches_[change.watch];
-    auto values = nlohmann::ordered_json::object(), meanings = nlohmann::ordered_json::array();
-    for (std::size_t i = 0; i < watch.leaves.size(); ++i) {
-      const Word word = word_of(*watch.leaves[i].type, change.after[i]);
-      values[watch.leaves[i].path.empty() ? "value" : watch.leaves[i].path] = word.name;
-      if (!word.meaning.empty()) meanings.push_back(word.meaning);
-    }
-    json.push_back({{"communicator", graph_.communicators[watch.communicator].name},
-                    {"instant_ns", change.instant.count()},
-                    {"values", std::move(values)},
-                    {"meanings", std::move(meanings)}});
-  }
-  return json;
+      noted.more.emplace_back(graph_.communicators[watch.communicator].name, watch.count - watch.kept.size());
+  return noted;
 }
 
 }  // namespace jarol

@@ -3,9 +3,9 @@
 
 #include <array>
 #include <mutex>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "graph/model/graph.h"
@@ -34,9 +34,23 @@ class StatusEvents : public RecordSink {
   /// What was noted so far, of the same graph, while nothing is handed on.
   void serialize(Archive& archive);
 
-  /// What was noted so far: a line per change, and an array of them.
-  std::string to_text() const;
-  nlohmann::ordered_json to_json() const;
+  /// What one enumeration of a value was then; `path` is empty where it is the value itself, `meaning` where the
+  /// enumerator has none. All of a value's first event are `changed`.
+  struct Stood {
+    std::string path, name, meaning;
+    bool changed = false;
+  };
+  struct Event {
+    std::string communicator;
+    Duration instant{};
+    std::vector<Stood> values;  // all enumerations of that value
+  };
+  /// What was noted so far, in its order, and of which communicators how many events more there were than are kept.
+  struct Noted {
+    std::vector<Event> events;
+    std::vector<std::pair<std::string, std::size_t>> more;
+  };
+  Noted noted() const;
 
  private:
   static constexpr std::size_t max_leaves = 8;

@@ -215,6 +215,17 @@ constexpr decltype(auto) with_fields(
   return function(static_cast<const Field<Member>&>(static_cast<const detail::PlacedField<I, Member>&>(fields))...);
 }
 
+/// The fields of a struct as a type alone, for what reads their types and not what is said of them.
+template <class T>
+inline constexpr decltype(T::fields())* field_types = nullptr;
+
+/// Calls function(value.*Member...) with all members that the value's struct describes.
+template <class T, class Function>
+constexpr decltype(auto) with_described(T& value, Function&& function) {
+  return [&]<auto... Member>(FieldList<Member...>*)->decltype(auto) { return function(value.*Member...); }
+  (field_types<std::remove_const_t<T>>);
+}
+
 /// The description of a struct: its fields in the order of their declaration. One that is missing, twice or misplaced
 /// does not compile, and the compiler's lines name it.
 template <auto... Member>

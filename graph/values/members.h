@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 namespace jarol::detail {
@@ -29,8 +30,14 @@ constexpr std::size_t member_count() {
 }
 
 // A place for a value that is never made: its members have addresses, and the compiler can compare them.
-template <class T>
+template <class T, bool = std::is_trivially_destructible_v<T>>
 union Place {
+  char none;
+  T value;
+  constexpr Place() : none() {}
+};
+template <class T>
+union Place<T, false> {
   char none;
   T value;
   constexpr Place() : none() {}

@@ -13,7 +13,8 @@ constexpr bool is_deep() {
   } else if constexpr (Array<T>) {
     return is_deep<typename ArrayTraits<T>::Element>();
   } else if constexpr (Described<T>) {
-    return with_fields(T::fields(), [](auto... f) { return (is_deep<typename decltype(f)::Value>() || ...); });
+    return []<auto... Member>(FieldList<Member...>*) { return (is_deep<typename Field<Member>::Value>() || ...); }
+    (field_types<T>);
   } else {
     return false;
   }

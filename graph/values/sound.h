@@ -33,8 +33,10 @@ constexpr std::size_t doubles_in() {
   } else if constexpr (Array<T>) {
     count = ArrayTraits<T>::count * doubles_in<typename ArrayTraits<T>::Element>();
   } else if constexpr (!SequenceOf<T> && Described<T>) {
-    count = with_fields(T::fields(),
-                        [](auto... f) { return (std::size_t{0} + ... + doubles_in<typename decltype(f)::Value>()); });
+    count = []<auto... Member>(FieldList<Member...>*) {
+      return (std::size_t{0} + ... + doubles_in<typename Field<Member>::Value>());
+    }
+    (field_types<T>);
   }
   return sizeof(T) == count * sizeof(double) ? count : 0;
 }
@@ -83,8 +85,8 @@ inline std::uint64_t any_non_finite(const T& value) {
     }
     return any;
   } else if constexpr (Described<T>) {
-    return with_fields(T::fields(),
-                       [&](auto... f) { return (std::uint64_t{0} | ... | any_non_finite(value.*(f.pointer))); });
+    return with_described(value,
+                          [](const auto&... member) { return (std::uint64_t{0} | ... | any_non_finite(member)); });
   } else {
     return 0;
   }
@@ -153,7 +155,7 @@ constexpr bool is_in_range(const T& value) {
       };
       return (field_is_in(static_cast<Field<Member>*>(nullptr)) && ...);
     }
-    (static_cast<decltype(T::fields())*>(nullptr));
+    (field_types<T>);
   }
 }
 

@@ -59,11 +59,14 @@ void copy_value(const Type& type, void* to, const void* from) {
   std::memcpy(to, from, type.size);
 }
 
-void add_field(Type& structure, std::string_view name, std::string_view unit, std::string_view text,
-               const FieldRange& range, const void* value, const void* member, const Type& type) {
-  const auto offset = static_cast<const std::byte*>(member) - static_cast<const std::byte*>(value);
-  structure.fields.push_back(
-      {std::string(name), std::string(unit), std::string(text), static_cast<std::size_t>(offset), &type, range});
+void add_fields(Type& structure, std::span<const DescribedField> fields, const void* value,
+                const void* const* members) {
+  structure.fields.reserve(fields.size());
+  for (const DescribedField& f : fields) {
+    const auto offset = static_cast<const std::byte*>(*members++) - static_cast<const std::byte*>(value);
+    structure.fields.push_back({std::string(f.name), std::string(f.unit), std::string(f.text),
+                                static_cast<std::size_t>(offset), &f.type(), f.range});
+  }
 }
 
 const TypeField* find_field(const Type& type, std::string_view name) {

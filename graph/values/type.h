@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -85,10 +86,16 @@ bool has_floating(const Type& type);
 /// Deep copy of a value.
 void copy_value(const Type& type, void* to, const void* from);
 
-/// Adds the description of a member of the struct at `value`. Apart from the templates that describe types: there it
-/// would be compiled again for each member.
-void add_field(Type& structure, std::string_view name, std::string_view unit, std::string_view text,
-               const FieldRange& range, const void* value, const void* member, const Type& type);
+/// What fields() says of one member: its type is described when it is asked for.
+struct DescribedField {
+  std::string_view name, unit, text;
+  FieldRange range;
+  const Type& (*type)();
+};
+
+/// Adds the fields of the struct at `value`, with the addresses of its members in the same order. Apart from the
+/// templates that describe types: there it would be compiled again for each of them.
+void add_fields(Type& structure, std::span<const DescribedField> fields, const void* value, const void* const* members);
 
 /// The field of that name, or null.
 const TypeField* find_field(const Type& type, std::string_view name);

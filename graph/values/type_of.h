@@ -1,6 +1,7 @@
 // type_of<T>(): the runtime description of a C++ value type, made once from its static description.
 #pragma once
 
+#include <array>
 #include <cstring>
 #include <memory_resource>
 #include <new>
@@ -22,7 +23,7 @@ void adopt(T& value, std::pmr::memory_resource* memory) {
     if constexpr (Array<T>) {
       for (auto& element : value) adopt(element, memory);
     } else {
-      with_fields(T::fields(), [&](auto... f) { (adopt(value.*(f.pointer), memory), ...); });
+      with_described(value, [&](auto&... member) { (adopt(member, memory), ...); });
     }
   }
 }
@@ -73,13 +74,15 @@ constexpr std::string_view scalar_name() {
   if constexpr (sizeof(T) == 8) return is_signed ? "int64" : "uint64";
 }
 
-// A default value, for the places of its members.
+// What stands in its fields(), made when it is compiled.
 template <class T>
-const T& example() {
-  alignas(T) static std::byte memory[sizeof(T)];
-  static const T* const value = new (memory) T{};
-  return *value;
-}
+inline constexpr auto described = [] {
+  constexpr auto fields = T::fields();
+  return with_fields(fields, [](const auto&... f) {
+    return std::array<DescribedField, sizeof...(f)>{
+        {{f.name, f.unit, f.text, f.range, &type_of<typename std::remove_cvref_t<decltype(f)>::Value>}...}};
+  });
+}();
 
 template <class T>
 void set_length_operations(Type& type) {
@@ -113,7 +116,7 @@ constexpr bool is_well_described() {
     return []<auto... Member>(FieldList<Member...>*) {
       return ((is_value<typename Field<Member>::Value> && has_names<Member>()) && ...);
     }
-    (static_cast<decltype(T::fields())*>(nullptr));
+    (field_types<T>);
   } else {
     return true;
   }
@@ -181,12 +184,11 @@ void fill_type(Type& type) {
       static_assert(is_in_range(T{}), "a default value is outside the range of its field");
     type.name = type_name<T>();
     type.kind = Kind::structure;
-    const T& value = example<T>();
-    with_fields(T::fields(), [&](auto... f) {
-      (add_field(type, f.name, f.unit, f.text, f.range, &value, &(value.*(f.pointer)),
-                 type_of<typename decltype(f)::Value>()),
-       ...);
-    });
+    [&]<auto... Member>(FieldList<Member...>*) {
+      static constexpr std::array<const void*, sizeof...(Member)> members{&(place<T>.value.*Member)...};
+      add_fields(type, described<T>, &place<T>.value, members.data());
+    }
+    (field_types<T>);
   }
 }
 

@@ -45,7 +45,7 @@ inline void for_each_word(const T& value, Visit&& visit) {
     visit(static_cast<std::uint64_t>(value.size()));
     for_each_packed_word(value.view(), visit);
   } else {
-    with_fields(T::fields(), [&](auto... f) { (for_each_word(value.*(f.pointer), visit), ...); });
+    with_described(value, [&](const auto&... member) { (for_each_word(member, visit), ...); });
   }
 }
 

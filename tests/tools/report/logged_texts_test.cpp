@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "distributers/session/logged_texts.h"
 #include "tests/graph/graph_of.h"
 #include "tests/tools/run_command.h"
+#include "tools/report/noted_report.h"
 
 namespace {
 std::string graph_in(const command::TemporaryFolder& folder) {
@@ -73,7 +73,7 @@ TEST_SUITE("tools/report/logged_texts") {
     say(1, 0, "two");
     say(2, 0, "three");
     say(2, 1, "four");
-    CHECK(texts.to_text() ==
+    CHECK(jarol::tools::to_text(texts.noted()) ==
           "  logged      a.said at 0.001 s: two\n"
           "  logged      b.said at 0.001 s: one\n"
           "  logged      a.said at 0.002 s: three\n"

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "distributers/session/status_events.h"
 #include "tasks/values/lauv.h"
 #include "tests/tools/run_command.h"
+#include "tools/report/noted_report.h"
 
 namespace {
 using namespace jarol;
@@ -41,6 +41,8 @@ struct Reported {
       changes.take(std::chrono::seconds(i), 1, &alarms[i]);
     }
   }
+  std::string to_text() const { return tools::to_text(changes.noted()); }
+  nlohmann::ordered_json to_json() const { return tools::to_json(changes.noted()); }
   DistributerClass its;
   Graph graph = operator_graph(its);
   StatusEvents changes{graph};
@@ -70,7 +72,7 @@ TEST_SUITE("tools/status_events") {
     CHECK(reported.changes.can_be_any());
     CHECK((reported.changes.wants(0) && reported.changes.wants(1) && !reported.changes.wants(2)));
     CHECK(
-        reported.changes.to_text() ==
+        reported.to_text() ==
         "  event       to_neptus at 2 s: alarm gps, fins checked: it stays at the surface, as GPS is silent\n"
         "  event       to_siren at 2 s: gps: it stays at the surface, as GPS is silent\n"
         "  event       to_neptus at 4 s: alarm speed: it comes up, as the speed log or the propeller's speed is silent "
@@ -79,28 +81,28 @@ TEST_SUITE("tools/status_events") {
         "wrong\n"
         "  event       to_neptus at 5 s: alarm none\n"
         "  event       to_siren at 5 s: none\n");
-    CHECK(reported.changes.to_json()[1].dump() ==
+    CHECK(reported.to_json()[1].dump() ==
           R"({"communicator":"to_siren","instant_ns":2000000000,"values":{"value":"gps"},)"
           R"("meanings":["it stays at the surface, as GPS is silent"]})");
   }
 
   TEST_CASE("what holds from the first value on is reported, and no change without a meaning") {
-    CHECK(Reported({Alarm::leak, Alarm::leak}).changes.to_text() ==
+    CHECK(Reported({Alarm::leak, Alarm::leak}).to_text() ==
           "  event       to_neptus at 0 s: alarm leak, fins checked: it comes up, as there is water at the first leak "
           "sensor, or that is silent\n"
           "  event       to_siren at 0 s: leak: it comes up, as there is water at the first leak sensor, or that is "
           "silent\n");
-    CHECK(Reported({Alarm::none, Alarm::none}).changes.to_text() == "");
+    CHECK(Reported({Alarm::none, Alarm::none}).to_text() == "");
   }
 
   TEST_CASE("of very many changes the first are reported, and how many more there were") {
     std::vector<Alarm> alarms;
     for (int i = 0; i < 150; ++i) alarms.push_back(i % 2 == 0 ? Alarm::heading : Alarm::none);
-    const std::string text = Reported(alarms).changes.to_text();
+    const std::string text = Reported(alarms).to_text();
     CHECK(std::count(text.begin(), text.end(), '\n') == 2 * (100 + 1));
     CHECK(
         text.ends_with("  event       to_neptus: and 50 changes more\n  event       to_siren: and 50 changes more\n"));
-    CHECK(Reported(alarms).changes.to_json().size() == 200);
+    CHECK(Reported(alarms).to_json().size() == 200);
   }
 
 #ifdef JAROL_VEHICLES

@@ -13,7 +13,7 @@
 namespace jarol::tools {
 namespace {
 
-std::string text_of(const std::vector<Save>& saves) {
+std::string saves_text(const std::vector<Save>& saves) {
   std::string text;
   for (const Save& save : saves) text += "  saved       at " + seconds_text(save.at) + " s to " + save.file + "\n";
   return text;
@@ -51,7 +51,7 @@ void print(const RunArguments& options, const RunOutcome& outcome, const std::ve
   }
   std::cout << to_text(outcome) << execution_text(options.execution, outcome.graph())
             << (options.guard ? "  guard       no task wrote to memory that is not its own\n" : "");
-  std::cout << text_of(saves);
+  std::cout << saves_text(saves);
   if (written) std::cout << to_text(options.files);
   if (written) std::cout << to_text(options.recording);
   std::cout << to_text(column_of(outcome.state, outcome.report, outcome.true_states, outcome.verdict),

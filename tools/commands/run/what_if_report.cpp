@@ -21,11 +21,11 @@ const char* shown_unit(const RunColumn::Reached& reached) {
   return reached.unit == "rad" ? "deg" : reached.unit.c_str();
 }
 
-using Columns = std::vector<const RunColumn*>;
+using RunColumns = std::vector<const RunColumn*>;
 
 // One line of the table: what each column has of it.
 template <class Text>
-std::string line_of(const Columns& columns, const std::string& title, Text text_of_column) {
+std::string line_of(const RunColumns& columns, const std::string& title, Text text_of_column) {
   std::string line = fmt::format("  {:<14}", title);
   for (const RunColumn* column : columns) line += fmt::format("  {:>18}", text_of_column(*column));
   return line + "\n";
@@ -40,7 +40,7 @@ std::string outcome_text(const Verdict& verdict) {
   return "";
 }
 
-std::string table(const Columns& columns) {
+std::string table(const RunColumns& columns) {
   std::string text = fmt::format("  {:<14}", "");
   for (std::size_t i = 0; i < columns.size(); ++i)
     text += fmt::format("  {:>18}", i == 0 ? "the run" : "what if " + std::to_string(i));
@@ -73,7 +73,7 @@ std::string text_of_failures(const RunVerdict& verdict) {
 std::string to_text(const RunColumn& run, const std::vector<WhatIfOutcome>& what_ifs) {
   if (what_ifs.empty()) return "";
   std::string text;
-  Columns columns{&run};
+  RunColumns columns{&run};
   for (const WhatIfOutcome& each : what_ifs) {
     text += "  what if " + std::to_string(columns.size()) + "   " + to_text(each.what_if) + "\n";
     columns.push_back(&each.column);
