@@ -69,7 +69,7 @@ class Typed final : public AnyDistributer {
   // of a distributer that does not say what it has beside `in`, it is looked whether there can be anything
   void serialize(Archive& archive) override {
     if constexpr (requires { distributer_.in; })
-      with_fields(In::fields(), [&](auto... f) { archive((distributer_.in.*(f.pointer))...); });
+      with_described(distributer_.in, [&](auto&... member) { archive(member...); });
     if constexpr (detail::has_serialize<D>)
       distributer_.serialize(archive);
     else if constexpr (!has_nothing_beside_in())

@@ -47,12 +47,12 @@ void LoggedTexts::serialize(Archive& archive) {
   archive(kept_);
 }
 
-LoggedTexts::Noted LoggedTexts::noted() const {
+LoggedTexts::Kept LoggedTexts::kept() const {
   const std::lock_guard lock(mutex_);
-  Noted noted{kept_, {}};
+  Kept all{kept_, {}};
   for (const Output& output : outputs_)
-    if (output.count > max_kept) noted.more.emplace_back(output.name, output.count - max_kept);
-  return noted;
+    if (output.count > max_kept) all.more.emplace_back(output.name, output.count - max_kept);
+  return all;
 }
 
 }  // namespace jarol

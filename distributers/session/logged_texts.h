@@ -37,11 +37,11 @@ class LoggedTexts : public RecordSink {
   };
   /// What was noted so far, by instant, texts of one by output, and of which outputs how many texts more there were
   /// than are kept.
-  struct Noted {
+  struct Kept {
     std::vector<Text> texts;
     std::vector<std::pair<std::string, std::size_t>> more;
   };
-  Noted noted() const;
+  Kept kept() const;
 
  private:
   struct Output {

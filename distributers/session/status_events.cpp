@@ -86,9 +86,9 @@ std::vector<StatusEvents::Change> StatusEvents::in_order() const {
   return all;
 }
 
-StatusEvents::Noted StatusEvents::noted() const {
+StatusEvents::Kept StatusEvents::kept() const {
   const std::lock_guard lock(mutex_);
-  Noted noted;
+  Kept all;
   std::vector<bool> begun(watches_.size(), false);
   for (const Change& change : in_order()) {
     const Watch& watch = watches_[change.watch];
@@ -100,12 +100,12 @@ StatusEvents::Noted StatusEvents::noted() const {
                               !begun[change.watch] || change.before[i] != change.after[i]});
     }
     begun[change.watch] = true;
-    noted.events.push_back(std::move(event));
+    all.events.push_back(std::move(event));
   }
   for (const Watch& watch : watches_)
     if (watch.count > watch.kept.size())
-      noted.more.emplace_back(graph_.communicators[watch.communicator].name, watch.count - watch.kept.size());
-  return noted;
+      all.more.emplace_back(graph_.communicators[watch.communicator].name, watch.count - watch.kept.size());
+  return all;
 }
 
 }  // namespace jarol

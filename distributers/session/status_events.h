@@ -46,11 +46,11 @@ class StatusEvents : public RecordSink {
     std::vector<Stood> values;  // all enumerations of that value
   };
   /// What was noted so far, in its order, and of which communicators how many events more there were than are kept.
-  struct Noted {
+  struct Kept {
     std::vector<Event> events;
     std::vector<std::pair<std::string, std::size_t>> more;
   };
-  Noted noted() const;
+  Kept kept() const;
 
  private:
   static constexpr std::size_t max_leaves = 8;

@@ -13,7 +13,7 @@ namespace jarol {
 /// Members of four bytes and bytes alone: no option of a compiler changes where they lie.
 struct PluginBuild {
   char magic[16] = {'j', 'a', 'r', 'o', 'l', ' ', 'p', 'l', 'u', 'g', 'i', 'n', ' ', 'o', 'f', ':'};
-  std::int32_t form = 11;  // grows with every change of this interface
+  std::int32_t form = 12;  // grows with every change of this interface
   BuildOptions options{};
   std::int32_t eigen_alignment = 0;                                               // bytes
   std::int32_t task_class = 0, type = 0, sequence = 0, string = 0, registry = 0;  // bytes

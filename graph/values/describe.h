@@ -215,9 +215,9 @@ constexpr decltype(auto) with_fields(
   return function(static_cast<const Field<Member>&>(static_cast<const detail::PlacedField<I, Member>&>(fields))...);
 }
 
-/// The fields of a struct as a type alone, for what reads their types and not what is said of them.
+/// A null pointer to the type of a struct's fields: for what reads their types and not what is said of them.
 template <class T>
-inline constexpr decltype(T::fields())* field_types = nullptr;
+inline constexpr std::remove_cvref_t<decltype(T::fields())>* field_types = nullptr;
 
 /// Calls function(value.*Member...) with all members that the value's struct describes.
 template <class T, class Function>

@@ -29,7 +29,9 @@ constexpr std::size_t member_count() {
   }
 }
 
-// A place for a value that is never made: its members have addresses, and the compiler can compare them.
+// A place for a value that is never made: its members have addresses, which the compiler can compare, and of which
+// their offsets are made. Of what needs no destructor it has none, so that nothing is registered for the end of the
+// program.
 template <class T, bool = std::is_trivially_destructible_v<T>>
 union Place {
   char none;

@@ -74,15 +74,12 @@ constexpr std::string_view scalar_name() {
   if constexpr (sizeof(T) == 8) return is_signed ? "int64" : "uint64";
 }
 
-// What stands in its fields(), made when it is compiled.
+// What a struct's fields() says, as a table that the compiler makes.
 template <class T>
-inline constexpr auto described = [] {
-  constexpr auto fields = T::fields();
-  return with_fields(fields, [](const auto&... f) {
-    return std::array<DescribedField, sizeof...(f)>{
-        {{f.name, f.unit, f.text, f.range, &type_of<typename std::remove_cvref_t<decltype(f)>::Value>}...}};
-  });
-}();
+inline constexpr auto described_fields = with_fields(T::fields(), [](auto... f) {
+  return std::array<DescribedField, sizeof...(f)>{
+      {{f.name, f.unit, f.text, f.range, &type_of<typename decltype(f)::Value>}...}};
+});
 
 template <class T>
 void set_length_operations(Type& type) {
@@ -124,8 +121,9 @@ constexpr bool is_well_described() {
 
 template <class T>
 Type make_type() {
+  static_assert(is_value<T>, "a struct is a value once its fields() describes every member");
   Type type;
-  if constexpr (is_well_described<T>()) fill_type<T>(type);
+  if constexpr (is_value<T> && is_well_described<T>()) fill_type<T>(type);
   return type;
 }
 
@@ -176,7 +174,6 @@ void fill_type(Type& type) {
     type.kind = Kind::string;
     type.name = "string";
   } else {
-    static_assert(Described<T>, "a struct is a value once its fields() describes every member");
     static_assert(std::is_aggregate_v<T>, "a value is a plain struct without constructors or private members");
     static_assert(decltype(T::fields())::count > 0 || member_count<T>() == 0,
                   "fields() must describe every member of the struct; it describes none");
@@ -186,7 +183,7 @@ void fill_type(Type& type) {
     type.kind = Kind::structure;
     [&]<auto... Member>(FieldList<Member...>*) {
       static constexpr std::array<const void*, sizeof...(Member)> members{&(place<T>.value.*Member)...};
-      add_fields(type, described<T>, &place<T>.value, members.data());
+      add_fields(type, described_fields<T>, &place<T>.value, members.data());
     }
     (field_types<T>);
   }

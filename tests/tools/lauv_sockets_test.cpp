@@ -1,62 +1,17 @@
 // Vehicle, graph and operator as three parties on real sockets: two commands as people run them, and a console.
 #include <doctest/doctest.h>
 
-#include <chrono>
 #include <cmath>
 #include <optional>
-#include <thread>
 
-#include "distributers/links/link.h"
-#include "distributers/links/udp.h"
 #include "distributers/messages/imc.h"
 #include "tests/tools/process.h"
+#include "tests/tools/socket_console.h"
 
 namespace {
 using namespace jarol;
-using namespace jarol::distributers;
-using namespace std::chrono_literals;
 namespace imc = messages::imc;
-using Clock = std::chrono::steady_clock;
-
-class Console : public messages::Receiver {
- public:
-  explicit Console(const std::string& port, std::uint64_t id = 0x4001)
-      : link_(std::make_unique<UdpTransport>(Address::parse("0"), Address::parse(port)), imc::message_set(),
-              {.input = {PortKind::push, 256}, .output = {}, .header = {{"src", id}}}) {
-    link_.connect();
-  }
-
-  template <class M>
-  void say(const M& message) {
-    link_.send(messages::refer_to(message));
-    link_.flush();
-  }
-  void receive(messages::MessageRef message) override {
-    if (const auto* s = message.as<imc::EstimatedState>()) state = *s;
-    if (const auto* v = message.as<imc::VehicleState>()) op_mode = v->op_mode;
-    if (const auto* a = message.as<imc::RemoteActionsRequest>()) actions = std::string(a->actions);
-    if (message.as<imc::Heartbeat>() != nullptr) ++heartbeats;
-    if (const auto* list = message.as<imc::EntityList>()) entities = std::string(list->list);
-  }
-  // Says them every 100 ms, as a console does, until that is so.
-  template <class Done, class... Messages>
-  bool say_until(const Done& done, const Messages&... messages) {
-    for (const auto end = Clock::now() + 60s; Clock::now() < end; std::this_thread::sleep_for(100ms)) {
-      (say(messages), ...);
-      link_.receive(*this);
-      if (done()) return true;
-    }
-    return false;
-  }
-
-  imc::EstimatedState state;
-  int op_mode = -1;
-  int heartbeats = 0;
-  std::string actions, entities;
-
- private:
-  Link link_;
-};
+using tests::SocketConsole;
 }  // namespace
 
 TEST_SUITE("tools/lauv_sockets") {
@@ -69,7 +24,7 @@ TEST_SUITE("tools/lauv_sockets") {
         " --set distributers.dune.link.peer=127.0.0.1:" + plant +
         " --set distributers.neptus.link.listen=" + operating);
     using OpMode = imc::VehicleState::OpMode;
-    Console console(operating);
+    SocketConsole console(operating);
     const auto& s = console.state;
     const auto is_in = [&](int op_mode) { return [&console, op_mode] { return console.op_mode == op_mode; }; };
     CHECK(console.say_until([&] { return !console.actions.empty(); },
@@ -101,10 +56,10 @@ TEST_SUITE("tools/lauv_sockets") {
         "distributers.neptus.link.peers=2 --set distributers.neptus.link.listen=" +
         operating);
     using OpMode = imc::VehicleState::OpMode;
-    std::optional<Console> one(std::in_place, operating, 0x4001);
-    Console other(operating, 0x4002);
+    std::optional<SocketConsole> one(std::in_place, operating, 0x4001);
+    SocketConsole other(operating, 0x4002);
     const imc::EntityList query{imc::EntityList::Op::QUERY, ""};
-    for (Console* console : {&*one, &other})
+    for (SocketConsole* console : {&*one, &other})
       CHECK(
           console->say_until([&] { return !console->entities.empty() && console->op_mode == OpMode::SERVICE; }, query));
     // what one commands, both see; and the other's heading is added to its depth
@@ -114,7 +69,7 @@ TEST_SUITE("tools/lauv_sockets") {
                           imc::DesiredHeading{1.5}));
     CHECK(one->say_until([&] { return one->state.psi > 0.15F; }, imc::Heartbeat{}));
     {
-      Console third(operating, 0x4003);
+      SocketConsole third(operating, 0x4003);
       third.say(imc::Abort{});
       const int before = other.heartbeats;
       CHECK(other.say_until([&] { return other.heartbeats > before + 1; }, imc::Heartbeat{}));

@@ -74,7 +74,7 @@ connections: [a.out -> b.in]
     CHECK(report_on("nowhere") == "there is no file '" + library("nowhere") + "'");
     CHECK(report_on("none") ==
           "is no shared library with tasks; name them with JAROL_PLUGIN, see graph/plugins/plugin.h");
-    CHECK(report_on("old") == "was built for form 3 of the interface, this is form 11" + again);
+    CHECK(report_on("old") == "was built for form 3 of the interface, this is form 12" + again);
     CHECK(report_on("clash") == "brings a task type 'Counter', which there is already");
   }
 

@@ -96,4 +96,18 @@ connections: [count.out -> level]
     REQUIRE(vehicle.says("\nerror: " + why));
     CHECK(vehicle.end() == 3);
   }
+
+  TEST_CASE("a vehicle that throws where a script drives it is named, with what it says") {
+    const TemporaryFolder folder;
+    const auto check = [&](const std::string& level, const std::string& text) {
+      const auto driven = command::run_jarol("vehicle lamp --plugin " + plugin("world") + " --script " +
+                                                 folder.write("levels.csv", "time,level\n0,1\n0.1," + level + "\n") +
+                                                 " --for 1s --csv " + (folder / "light.csv"),
+                                             "2>&1 >/dev/null");
+      CHECK(command::has(driven.output, "error: vehicle 'lamp': " + text + "\n"));
+      CHECK(driven.exit_code == 3);
+    };
+    check("950", "its filament breaks at level 950");
+    check("0.5", "it throws what is no std::exception");
+  }
 }

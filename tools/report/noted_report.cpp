@@ -8,9 +8,9 @@
 
 namespace jarol::tools {
 
-std::string to_text(const StatusEvents::Noted& noted) {
+std::string to_text(const StatusEvents::Kept& kept) {
   std::string text;
-  for (const StatusEvents::Event& event : noted.events) {
+  for (const StatusEvents::Event& event : kept.events) {
     std::string words, meanings;
     for (const StatusEvents::Stood& value : event.values) {
       if (!value.changed) continue;
@@ -20,14 +20,14 @@ std::string to_text(const StatusEvents::Noted& noted) {
     text +=
         "  event       " + event.communicator + " at " + seconds_text(event.instant) + " s: " + words + meanings + "\n";
   }
-  for (const auto& [communicator, count] : noted.more)
+  for (const auto& [communicator, count] : kept.more)
     text += "  event       " + communicator + ": and " + std::to_string(count) + " changes more\n";
   return text;
 }
 
-nlohmann::ordered_json to_json(const StatusEvents::Noted& noted) {
+nlohmann::ordered_json to_json(const StatusEvents::Kept& kept) {
   auto json = nlohmann::ordered_json::array();
-  for (const StatusEvents::Event& event : noted.events) {
+  for (const StatusEvents::Event& event : kept.events) {
     auto values = nlohmann::ordered_json::object(), meanings = nlohmann::ordered_json::array();
     for (const StatusEvents::Stood& value : event.values) {
       values[value.path.empty() ? "value" : value.path] = value.name;
@@ -41,19 +41,19 @@ nlohmann::ordered_json to_json(const StatusEvents::Noted& noted) {
   return json;
 }
 
-std::string to_text(const LoggedTexts::Noted& noted) {
+std::string to_text(const LoggedTexts::Kept& kept) {
   std::string text;
-  for (const LoggedTexts::Text& logged : noted.texts)
+  for (const LoggedTexts::Text& logged : kept.texts)
     text += "  logged      " + logged.output + " at " + seconds_text(logged.instant) + " s: " + printable(logged.text) +
             "\n";
-  for (const auto& [output, count] : noted.more)
+  for (const auto& [output, count] : kept.more)
     text += "  logged      " + output + ": and " + std::to_string(count) + " texts more\n";
   return text;
 }
 
-nlohmann::ordered_json to_json(const LoggedTexts::Noted& noted) {
+nlohmann::ordered_json to_json(const LoggedTexts::Kept& kept) {
   auto json = nlohmann::ordered_json::array();
-  for (const LoggedTexts::Text& logged : noted.texts)
+  for (const LoggedTexts::Text& logged : kept.texts)
     json.push_back({{"output", logged.output}, {"instant_ns", logged.instant.count()}, {"text", logged.text}});
   return json;
 }

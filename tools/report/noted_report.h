@@ -10,11 +10,11 @@
 namespace jarol::tools {
 
 /// A line per event, which names what changed, and its meaning; all of them as an array.
-std::string to_text(const StatusEvents::Noted& noted);
-nlohmann::ordered_json to_json(const StatusEvents::Noted& noted);
+std::string to_text(const StatusEvents::Kept& kept);
+nlohmann::ordered_json to_json(const StatusEvents::Kept& kept);
 
 /// A line per text; all of them as an array.
-std::string to_text(const LoggedTexts::Noted& noted);
-nlohmann::ordered_json to_json(const LoggedTexts::Noted& noted);
+std::string to_text(const LoggedTexts::Kept& kept);
+nlohmann::ordered_json to_json(const LoggedTexts::Kept& kept);
 
 }  // namespace jarol::tools

@@ -1,6 +1,6 @@
 # Compiles not_a_value.cpp with one of its cases and looks what the compiler says: cmake -DNUMBER=1 -DCOMPILER=c++
 # -DROOT=tree -DEIGEN=folder -P not_a_value.cmake. Where it says what to use instead, that takes fewer than ten
-# lines, of a task ten at most.
+# lines, of a task ten at most, of a struct without fields() thirteen.
 cmake_minimum_required(VERSION 3.25)
 set(says_1 "Value::number.*a value owns what it holds: copy what a pointer leads to into the struct, or keep an index")
 set(says_2 "reference")
@@ -37,7 +37,8 @@ set(says_35 "enumerators.E. lists one at least, and each by a name of its own")
 set(says_36 "${says_35}")
 set(says_37 "a struct has at most 32 members; put some into a struct of their own")
 set(says_38 "a task has a name of its own: struct Fast : Smooth<float>")
-set(brief 1 3 4 5 6 7 8 9 10 11 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32 33 34 38)
+set(says_39 "a struct is a value once its fields\\(\\) describes every member")
+set(brief 1 3 4 5 6 7 8 9 10 11 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32 33 34 38 39)
 # g++ names the members, too
 set(names_3 "describes<.*Value::forgotten.*evaluates to false")
 set(names_6 "describes_in_order<.*Value::number.*Value::other.*evaluates to false")
@@ -69,6 +70,9 @@ list(LENGTH lines count)
 set(most 9)
 if(NUMBER GREATER 23 AND NUMBER LESS 31)
   set(most 10)
+endif()
+if(NUMBER EQUAL 39)
+  set(most 13)
 endif()
 if(NUMBER IN_LIST brief AND NOT COMPILER MATCHES "clang" AND count GREATER most)
   message(FATAL_ERROR "the compiler needs ${count} lines to say it:\n${said}")

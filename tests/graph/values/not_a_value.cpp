@@ -175,6 +175,10 @@ struct Value {
       b8{}, b9{}, c0{}, c1{}, c2{}, c3{}, c4{}, c5{}, c6{}, c7{}, c8{}, c9{}, d0{}, d1{}, d2{};
   static constexpr auto fields() { return describe(field<&Value::a0>()); }
 };
+#elif NOT_A_VALUE == 39  // without fields()
+struct Value {
+  double number = 0;
+};
 #else                    // a value; the names of an enumeration within it can only stand behind it
 struct Value {
   enum class Mode { on, off };

@@ -60,6 +60,16 @@ struct Counted {
   static constexpr auto fields() { return describe(field<&Counted::number>(), field<&Counted::count>()); }
 };
 
+// What a destructor has to free stands before what is read by its offset.
+struct Named {
+  String name{};
+  Sequence<float> weights{};
+  std::int16_t level = 0;
+  static constexpr auto fields() {
+    return describe(field<&Named::name>(), field<&Named::weights>(), field<&Named::level>("", "of it").in(-3, 3));
+  }
+};
+
 struct Nothing {
   static constexpr auto fields() { return describe(); }
 };
@@ -88,6 +98,19 @@ TEST_SUITE("graph/values/type") {
     CHECK(type.fields[2].type->element->fields[0].text == "below the surface");
     CHECK(type.fields[3].type->name == "duration");
     CHECK(type.fields[1].offset == offsetof(Outer, position));
+  }
+
+  TEST_CASE("a field is found behind texts and sequences, with its range") {
+    const Type& type = type_of<Named>();
+    REQUIRE(type.fields.size() == 3);
+    CHECK(type.fields[0].offset == 0);
+    CHECK(type.fields[1].offset == offsetof(Named, weights));
+    CHECK(type.fields[2].offset == offsetof(Named, level));
+    CHECK(type.fields[2].text == "of it");
+    CHECK(type.fields[2].type == &type_of<std::int16_t>());
+    CHECK(type.fields[2].range.has(-3));
+    CHECK_FALSE(type.fields[2].range.has(3.5));
+    CHECK_FALSE(type.fields[1].range.is_stated());
   }
 
   TEST_CASE("the scalars of a type have paths") {

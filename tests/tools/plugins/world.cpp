@@ -54,6 +54,7 @@ class Lamp : public jarol::vehicles::Vehicle {
     if (const auto* limit = command.as<IdleLimit>()) inputs_.level = limit->idle;
   }
   void step() override {
+    if (inputs_.level == 0.5) throw 5;
     if (inputs_.level > 900)
       throw std::runtime_error("its filament breaks at level " + std::to_string(static_cast<int>(inputs_.level)));
     outputs_.lamp.light = parameters_.gain * inputs_.level;

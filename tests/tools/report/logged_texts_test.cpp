@@ -73,7 +73,7 @@ TEST_SUITE("tools/report/logged_texts") {
     say(1, 0, "two");
     say(2, 0, "three");
     say(2, 1, "four");
-    CHECK(jarol::tools::to_text(texts.noted()) ==
+    CHECK(jarol::tools::to_text(texts.kept()) ==
           "  logged      a.said at 0.001 s: two\n"
           "  logged      b.said at 0.001 s: one\n"
           "  logged      a.said at 0.002 s: three\n"

@@ -41,8 +41,8 @@ struct Reported {
       changes.take(std::chrono::seconds(i), 1, &alarms[i]);
     }
   }
-  std::string to_text() const { return tools::to_text(changes.noted()); }
-  nlohmann::ordered_json to_json() const { return tools::to_json(changes.noted()); }
+  std::string to_text() const { return tools::to_text(changes.kept()); }
+  nlohmann::ordered_json to_json() const { return tools::to_json(changes.kept()); }
   DistributerClass its;
   Graph graph = operator_graph(its);
   StatusEvents changes{graph};

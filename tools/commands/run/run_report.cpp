@@ -44,7 +44,7 @@ std::string to_text(const RunOutcome& outcome) {
     if (const PrivateHeap* heap = outcome.state.heaps[i])
       text += fmt::format("  heap        {}: at most {} of {} bytes in use\n", graph.tasks[i].name, heap->max_used(),
                           heap->size());
-  text += to_text(outcome.noted.reported.noted()) + to_text(outcome.noted.logged.noted());
+  text += to_text(outcome.noted.reported.kept()) + to_text(outcome.noted.logged.kept());
   if (outcome.clock != nullptr) text += to_text(graph, *outcome.clock);
   if (outcome.threads != nullptr) text += to_text(graph, *outcome.threads);
   for (const LinkReport& link : outcome.links) text += to_text(link);
@@ -87,8 +87,8 @@ nlohmann::ordered_json to_json(const RunOutcome& outcome) {
       {"ending", to_json(outcome.end)},
       {"rest", to_json(graph, outcome.rest, outcome.end)},
       {"failsafe", to_json(graph, outcome.failsafe)},
-      {"events", to_json(outcome.noted.reported.noted())},
-      {"logged", to_json(outcome.noted.logged.noted())},
+      {"events", to_json(outcome.noted.reported.kept())},
+      {"logged", to_json(outcome.noted.logged.kept())},
       {"heaps", heaps},
       {"outputs", outputs_to_json(graph, [&](std::size_t communicator) { return outcome.last_value(communicator); })}};
   if (outcome.clock != nullptr) json["real_time"] = to_json(graph, *outcome.clock);
