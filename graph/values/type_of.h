@@ -121,7 +121,9 @@ constexpr bool is_well_described() {
 
 template <class T>
 Type make_type() {
-  static_assert(is_value<T>, "a struct is a value once its fields() describes every member");
+  static_assert(is_value<T>,
+                "a struct is a value once it has a public static constexpr auto fields() { return "
+                "jarol::describe(jarol::field<&Struct::member>(), ...); }, with all its members");
   Type type;
   if constexpr (is_value<T> && is_well_described<T>()) fill_type<T>(type);
   return type;

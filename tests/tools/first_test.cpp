@@ -59,7 +59,7 @@ TEST_SUITE("tools/first") {
     CHECK(names == jarol::tools::make_command_line(exit_code).names());
     CHECK(jarol::tools::unbuilt_commands().empty());
     CHECK(run_first("run specs/counting.yaml --for 1s --console").output ==
-          "error: the web pages of --console are not built yet; tools/build builds them\n");
-    CHECK(has(run_first("--help").output, "tools/build builds the others"));
+          "error: the web pages of --console are not built yet; tools/build --page builds them, by npm\n");
+    CHECK(has(run_first("--help").output, "tools/build builds the others: bench, campaign, console, "));
   }
 }
