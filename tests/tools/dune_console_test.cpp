@@ -11,8 +11,8 @@
 #include "distributers/lauv/entities.h"
 #include "distributers/messages/imc.h"
 #include "distributers/messages/imc_entity.h"
-#include "distributers/messages/payload.h"
 #include "graph/math/geometry.h"
+#include "tests/tools/lauv_plan.h"
 #include "tests/tools/process.h"
 #include "tests/tools/socket_console.h"
 
@@ -30,8 +30,8 @@ class Dune {
   Dune(const std::string& vehicle, const std::string& own, const std::string& core)
       : vehicle_(tests::imc_over_udp("0", vehicle, 0x4001)), core_(tests::imc_over_udp(own, core, 0x00D1)) {
     thread_ = std::thread([this] {
-      Translated translated{*this};
-      Passed passed{*this};
+      Calls translated([this](messages::MessageRef m) { translate(m); });
+      Calls passed([this](messages::MessageRef m) { pass(m); });
       for (auto next = Clock::now(); !ended_; next += 2ms) {
         vehicle_->receive(translated);
         core_->receive(passed);
@@ -64,24 +64,16 @@ class Dune {
     servos
   };
 
-  struct Translated : messages::Receiver {
-    explicit Translated(Dune& d) : dune(d) {}
-    void receive(messages::MessageRef message) override { dune.translate(message); }
-    Dune& dune;
-  };
-  struct Passed : messages::Receiver {
-    explicit Passed(Dune& d) : dune(d) {}
-    void receive(messages::MessageRef message) override { dune.pass(message); }
-    Dune& dune;
+  template <class Take>
+  struct Calls : messages::Receiver {
+    explicit Calls(Take t) : take(t) {}
+    void receive(messages::MessageRef message) override { take(message); }
+    Take take;
   };
 
   template <class M>
   void say(std::uint8_t entity, const M& message) {
-    struct ToCore : messages::Receiver {
-      explicit ToCore(Link& l) : link(l) {}
-      void receive(messages::MessageRef m) override { link.send(m); }
-      Link& link;
-    } to_core{*core_};
+    Calls to_core([this](messages::MessageRef m) { core_->send(m); });
     imc::send_from(entity, message, to_core);
   }
   // As they are, from that entity.
@@ -149,54 +141,6 @@ class Dune {
   std::thread thread_;
 };
 
-constexpr double latitude = 41.1850 * degree, longitude = -8.7062 * degree;
-
-template <class M>
-M maneuver(double north, double east) {
-  const EarthRadii radii = earth_radii(latitude);
-  M m;
-  m.lat = latitude + north / radii.north;
-  m.lon = longitude + east / radii.east;
-  m.speed = 1.2F;
-  m.speed_units = imc::SpeedUnits::METERS_PS;
-  m.z = 2;
-  m.z_units = imc::ZUnits::DEPTH;
-  return m;
-}
-
-// A way of 20 m north, then circles.
-imc::PlanControl plan_of_two() {
-  imc::PlanSpecification plan;
-  plan.plan_id = "there";
-  plan.start_man_id = "Goto1";
-  const auto add = [&](const char* name, messages::MessageRef m) {
-    imc::PlanManeuver named;
-    named.maneuver_id = name;
-    REQUIRE(messages::put_inline(m, named.data));
-    messages::InlineMessage packed;
-    REQUIRE(messages::put_inline(messages::refer_to(named), packed));
-    plan.maneuvers.push_back(packed);
-  };
-  const auto way = maneuver<imc::Goto>(20, 0);
-  auto circles = maneuver<imc::Loiter>(20, 15);
-  circles.radius = 12;
-  circles.duration = 3600;
-  add("Goto1", messages::refer_to(way));
-  add("Loiter2", messages::refer_to(circles));
-  imc::PlanTransition transition;
-  transition.source_man = "Goto1";
-  transition.dest_man = "Loiter2";
-  transition.conditions = "ManeuverIsDone";
-  messages::InlineMessage packed;
-  REQUIRE(messages::put_inline(messages::refer_to(transition), packed));
-  plan.transitions.push_back(packed);
-  imc::PlanControl control;
-  control.op = imc::PlanControl::Op::START;
-  control.request_id = 7;
-  control.plan_id = plan.plan_id;
-  REQUIRE(messages::put_inline(messages::refer_to(plan), control.arg));
-  return control;
-}
 }  // namespace
 
 TEST_SUITE("tools/dune_console") {
@@ -217,10 +161,14 @@ TEST_SUITE("tools/dune_console") {
     using OpMode = imc::VehicleState::OpMode;
     using State = imc::PlanControlState::State;
     REQUIRE(waits([&] { return console.op_mode == OpMode::SERVICE && std::abs(console.state.lat) > 0; }));
-    CHECK(console.state.lat == doctest::Approx(latitude).scale(0).epsilon(1e-5));
+    CHECK(console.state.lat == doctest::Approx(tests::origin_latitude).scale(0).epsilon(1e-5));
     CHECK(dune.labels_asked > 0);
 
-    console.say(plan_of_two());
+    auto circles = tests::maneuver<imc::Loiter>(20, 15, 2);
+    circles.radius = 12;
+    circles.duration = 3600;
+    console.say(
+        tests::PlanOf("there").then("Goto1", tests::maneuver<imc::Goto>(20, 0, 2)).then("Loiter2", circles).start());
     REQUIRE(waits([&] { return console.plan.state == State::EXECUTING && console.plan.man_id == "Goto1"; }));
     REQUIRE(waits([&] { return console.plan.man_id == "Loiter2"; }));
     CHECK(waits([&] { return std::abs(console.state.depth - 2) < 0.1F; }));

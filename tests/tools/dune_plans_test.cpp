@@ -12,79 +12,18 @@
 #include "graph/math/geometry.h"
 #include "tests/distributers/lauv_console.h"
 #include "tests/tools/lauv_mission.h"
+#include "tests/tools/lauv_plan.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::tests;
 using test::Mission;
 
-constexpr double latitude = 41.1850 * degree, longitude = -8.7062 * degree;
-
-// Where that is, in m north and east of the origin.
-template <class M>
-M at(double x, double y) {
-  const EarthRadii radii = earth_radii(latitude);
-  M m;
-  m.lat = latitude + x / radii.north;
-  m.lon = longitude + y / radii.east;
-  return m;
-}
-
-template <class M>
-M maneuver(double x, double y, double depth = 3, double speed = 1.2) {
-  M m = at<M>(x, y);
-  m.speed = static_cast<float>(speed);
-  if constexpr (requires { m.z; }) {
-    m.z = static_cast<float>(depth);
-    m.z_units = imc::ZUnits::DEPTH;
-  }
-  if constexpr (requires { m.timeout; }) m.timeout = 10000;
-  return m;
-}
-
-// One after the other, with transitions as Neptus writes them.
-struct PlanOf {
-  imc::PlanSpecification plan;
-
-  explicit PlanOf(const char* name) { plan.plan_id = name; }
-  template <class M>
-  PlanOf& then(const char* name, const M& m) {
-    imc::PlanManeuver named;
-    named.maneuver_id = name;
-    REQUIRE(messages::put_inline(messages::refer_to(m), named.data));
-    messages::InlineMessage packed;
-    REQUIRE(messages::put_inline(messages::refer_to(named), packed));
-    plan.maneuvers.push_back(packed);
-    if (plan.start_man_id.empty()) {
-      plan.start_man_id = name;
-    } else {
-      imc::PlanTransition transition;
-      transition.source_man = last;
-      transition.dest_man = name;
-      transition.conditions = "ManeuverIsDone";
-      REQUIRE(messages::put_inline(messages::refer_to(transition), packed));
-      plan.transitions.push_back(packed);
-    }
-    last = name;
-    return *this;
-  }
-  imc::PlanControl start() const {
-    imc::PlanControl control;
-    control.op = imc::PlanControl::Op::START;
-    control.request_id = 21;
-    control.plan_id = plan.plan_id;
-    REQUIRE(messages::put_inline(messages::refer_to(plan), control.arg));
-    return control;
-  }
-
-  std::string last;
-};
-
 template <class M>
 imc::PlanControl start(const char* name, const M& m) {
   imc::PlanControl control;
   control.plan_id = name;
-  REQUIRE(messages::put_inline(messages::refer_to(m), control.arg));
+  control.arg = packed(m);
   return control;
 }
 
@@ -256,9 +195,8 @@ TEST_SUITE("tools/dune_plans") {
     CHECK(mission.console.to.last<imc::FollowRefState>().state == imc::FollowRefState::State::WAIT);
     imc::Reference reference = at<imc::Reference>(40, 20);
     reference.flags = imc::Reference::Flags::LOCATION | imc::Reference::Flags::SPEED | imc::Reference::Flags::Z;
-    REQUIRE(
-        messages::put_inline(messages::refer_to(imc::DesiredSpeed{1.2, imc::SpeedUnits::METERS_PS}), reference.speed));
-    REQUIRE(messages::put_inline(messages::refer_to(imc::DesiredZ{2, imc::ZUnits::DEPTH}), reference.z));
+    reference.speed = packed(imc::DesiredSpeed{1.2, imc::SpeedUnits::METERS_PS});
+    reference.z = packed(imc::DesiredZ{2, imc::ZUnits::DEPTH});
     const auto state = [&] { return mission.console.to.last<imc::FollowRefState>().state; };
     for (int k = 0; k < 20; ++k) {
       mission.say(reference);
