@@ -68,6 +68,8 @@ class Link {
 
   const Transport& transport() const { return *transport_; }
   LinkReport report() const;
+  /// Packets that came and counted, so far; any thread.
+  std::uint64_t heard() const { return translator_.heard(); }
 
  private:
   // What ended one of its threads, for the thread that uses the link.

@@ -28,9 +28,11 @@ void LinkedSystem::finish() {
 }
 
 // Of a vehicle what is of no use may be its own, as from a line that echoes.
+std::uint64_t LinkedSystem::heard() const { return std::min(link_->heard(), distributer_->used()); }
+
 std::optional<LinkReport> LinkedSystem::link_report() const {
   LinkReport report = link_->report();
-  report.heard = std::min(report.heard, distributer_->used());
+  report.heard = heard();
   return report;
 }
 

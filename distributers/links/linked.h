@@ -23,6 +23,8 @@ class LinkedSystem : public ExternalSystem {
   bool has_sent() const override { return link_->has_sent(); }
   std::string doubt() const override { return link_->transport().doubt(); }
   std::optional<LinkReport> link_report() const override;
+  /// Packets that came, so far, and are of use to the distributer; any thread.
+  std::uint64_t heard() const;
   std::uint64_t non_finite_inputs() const override { return distributer_->non_finite_inputs(); }
   void ending() override { distributer_->ending(); }
   bool overrides_end() const override { return distributer_->overrides_end(); }

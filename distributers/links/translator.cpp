@@ -215,11 +215,15 @@ void Translator::store(const messages::PacketCounts& now) {
   counts_.packets.store(reported_.packets, std::memory_order_release);
 }
 
-void Translator::add_carried_to(LinkReport& report) const {
+std::uint64_t Translator::heard() const {
   const std::uint64_t packets = counts_.packets;  // before the others: no more of them than these
   const std::uint64_t stamps = counts_.stamps[1] + counts_.stamps[2] + counts_.stamps[3];
-  report.heard = packets - std::min<std::uint64_t>(packets, counts_.others + counts_.elsewhere + stamps);
-  report.counts.emplace_back("packets in", packets);
+  return packets - std::min<std::uint64_t>(packets, counts_.others + counts_.elsewhere + stamps);
+}
+
+void Translator::add_carried_to(LinkReport& report) const {
+  report.heard = heard();
+  report.counts.emplace_back("packets in", counts_.packets);
   report.counts.emplace_back("bytes in", counts_.bytes);
   report.counts.emplace_back("bytes dropped", counts_.dropped_bytes);
   report.counts.emplace_back("late", counts_.late);

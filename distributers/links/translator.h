@@ -42,7 +42,8 @@ class Translator : public ByteSink {
   bool is_broken() const override { return broken_; }
   void begin_stream() override;
 
-  /// From any thread.
+  /// Packets that came and counted; any thread.
+  std::uint64_t heard() const;
   void add_carried_to(LinkReport& report) const;
   void add_dropped_to(LinkReport& report) const;
 

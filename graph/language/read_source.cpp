@@ -4,11 +4,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
+#include <vector>
 
 #include "graph/language/inputs.h"
+#include "graph/language/problems.h"
 #include "graph/language/source_set.h"
 #include "graph/language/yaml.h"
 
@@ -18,6 +23,23 @@ namespace {
 [[noreturn]] void fail(const std::string& path, const std::string& reason) {
   const auto whole = std::make_shared<Source>(Source{path, ""});
   throw SpecError({{{whole, 0, 0}, "can't read '" + path + "': " + reason, {}}});
+}
+
+// Of a file that is not there, one of a name like it that is; their ends are alike anyway.
+std::string one_like_it(const std::filesystem::path& path) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::vector<std::string> names;
+  std::error_code gone, other;
+  int looks = 10'000;
+  for (std::filesystem::directory_iterator at(folder, gone), end; !gone && at != end && looks > 0; at.increment(gone)) {
+    --looks;
+    const std::filesystem::path& found = at->path();
+    if (found.extension() == path.extension() && !did_you_mean(path.stem().native(), {found.stem()}).empty() &&
+        at->is_regular_file(other))
+      names.push_back(found.filename());
+  }
+  std::sort(names.begin(), names.end());
+  return did_you_mean(path.filename().native(), names);
 }
 
 [[noreturn]] void fail_as_too_large(const std::string& path, std::size_t max) {
@@ -59,7 +81,10 @@ std::shared_ptr<const Source> read_from_disk(const std::string& path, std::size_
   }
   // a FIFO that nobody writes is not waited for
   const File file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)};
-  if (file.number < 0) fail(path, std::strerror(errno));
+  if (file.number < 0) {
+    const int error = errno;
+    fail(path, std::strerror(error) + (error == ENOENT ? one_like_it(path) : ""));
+  }
   return std::make_shared<Source>(Source{path, read_all(file, path, max)});
 }
 

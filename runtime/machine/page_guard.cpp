@@ -12,6 +12,7 @@
 #include <new>
 #include <utility>
 
+#include "graph/build_options.h"
 #include "graph/text/errors.h"
 #include "runtime/machine/map_line.h"
 
@@ -41,9 +42,9 @@ std::uintptr_t find_stack_size() {
 }  // namespace
 
 PageGuard::PageGuard() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  throw Unfinished("a program with sanitizers writes to memory of its own all the time");
-#endif
+  constexpr BuildOptions options = options_of_this_file();
+  if constexpr (options.address_sanitizer != 0 || options.thread_sanitizer != 0)
+    throw Unfinished("a program with sanitizers writes to memory of its own all the time");
   if (::sysconf(_SC_PAGESIZE) != static_cast<long>(page))
     throw Unfinished("this machine's pages are not of 4096 bytes");
   maps_ = ::open("/proc/self/maps", O_RDONLY | O_CLOEXEC);

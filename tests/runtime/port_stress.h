@@ -5,12 +5,13 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <span>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "tests/how_many.h"
 
 namespace jarol::tests {
 
@@ -28,7 +29,7 @@ class Stress {
 
  private:
   bool hands_off_;
-  bool full_ = std::getenv("JAROL_FULL") != nullptr;
+  bool full_ = is_full();
   std::chrono::steady_clock::time_point end_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(200);
 };
 

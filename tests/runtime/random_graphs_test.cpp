@@ -1,10 +1,9 @@
 // Thousands of random graphs give what the oracle gives, value by value and deadline by deadline.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
-
 #include "runtime/execute/executor.h"
 #include "tests/graph/graph_of.h"
+#include "tests/how_many.h"
 #include "tests/runtime/oracle.h"
 #include "tests/runtime/random_model.h"
 
@@ -40,14 +39,7 @@ std::string first_difference(const oracle::Trace& is, const oracle::Trace& shoul
   return "";
 }
 
-std::uint64_t count_of_graphs() {
-  if (std::getenv("JAROL_FULL") != nullptr) return 20'000;
-#if defined(__OPTIMIZE__) && !defined(__SANITIZE_THREAD__)
-  return 2'000;
-#else
-  return 300;
-#endif
-}
+std::uint64_t count_of_graphs() { return tests::how_many(2'000, 20'000, 300); }
 }  // namespace
 
 TEST_SUITE("runtime/random_graphs") {

@@ -1,12 +1,12 @@
 // What `check` says holds, run on the real clock with every task at its WCET.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <ctime>
 #include <numeric>
 
 #include "graph/analysis/check.h"
 #include "tests/graph/analysis/random_sets.h"
+#include "tests/how_many.h"
 #include "tests/runtime/run_on_threads.h"
 
 namespace {
@@ -112,7 +112,7 @@ TEST_SUITE("runtime/real_yes") {
     }
     RealTimeOptions options = undisturbed();
     options.core_cpus = {machine().usable[0], machine().usable[1]};
-    const int count = std::getenv("JAROL_FULL") != nullptr ? 100 : 4;
+    const int count = tests::how_many(4, 100, 4);
     for (const Policy& policy : {policies::table, policies::fixed_priority}) {
       std::uint64_t seed = 0;
       for (int i = 0; i < count; ++i) {

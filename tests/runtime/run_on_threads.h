@@ -140,7 +140,7 @@ inline RealTimeOptions undisturbed() {
 
 // All of a stack is locked in memory when its thread is made, and tests make many. Sanitizers need more.
 inline void keep_stacks_small() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef JAROL_SANITIZED
   constexpr std::size_t size = std::size_t{2} << 20;
 #else
   constexpr std::size_t size = std::size_t{512} << 10;

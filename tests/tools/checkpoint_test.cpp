@@ -1,7 +1,6 @@
 // A mission that is saved at any instant and goes on elsewhere ends as the one in one piece, to the bit.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "graph/values/seed.h"
+#include "tests/how_many.h"
 #include "tests/runtime/random_model.h"
 #include "tests/tools/reports.h"
 #include "tests/tools/run_command.h"
@@ -31,8 +31,6 @@ using command::TemporaryFolder;
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-bool is_full() { return std::getenv("JAROL_FULL") != nullptr; }
-
 // At any nanosecond of the mission.
 Duration random_instant(Duration length, std::uint64_t seed) {
   return Duration(static_cast<std::int64_t>(spread_seed(seed, "instant") % static_cast<std::uint64_t>(length.count())));
@@ -42,7 +40,7 @@ std::vector<Mission> missions() {
   std::vector<Mission> all{{"specs/counting.yaml", {}, 5s}, {"specs/window.yaml", {}, 5s}};
 #ifdef JAROL_VEHICLES
   const auto whole = [](const std::string& spec, Duration shortened) {
-    return is_full() ? open(spec).end_of_mission() : shortened;
+    return tests::is_full() ? open(spec).end_of_mission() : shortened;
   };
   const Duration dive = whole("specs/exolauv.yaml", 12s), hover = whole("specs/javiator.yaml", 14s);
   const std::vector<Mission> flown{
@@ -83,7 +81,7 @@ TEST_SUITE("tools/checkpoint") {
       CAPTURE(mission.options.profile);
       Session whole = open(mission.spec, mission.options);
       whole.run_until(mission.length);
-      for (std::uint64_t i = 0; i < (is_full() ? 5U : 2U); ++i) {
+      for (std::uint64_t i = 0; i < (tests::is_full() ? 5U : 2U); ++i) {
         const Duration at = random_instant(mission.length, i + mission.options.seed);
         CAPTURE(at.count());
         Session first = open(mission.spec, mission.options);
@@ -114,7 +112,7 @@ TEST_SUITE("tools/checkpoint") {
         "specs/counting.yaml --set 'expect=[min(count.out) < 1, once count.out < 1 before 1s, "
         "rms(count.out) > 10, rise_time(count.out to 200) < 3s]' --for 3s"};
 #ifdef JAROL_VEHICLES
-    const std::string end = is_full() ? "" : " --for 12s";
+    const std::string end = tests::is_full() ? "" : " --for 12s";
     runs.insert(runs.end(), {"specs/exolauv.yaml" + end, "specs/exolauv.yaml --profile at_sea --seed 3" + end,
                              "specs/javiator.yaml" + end, "specs/javiator.yaml --profile original" + end});
 #endif
@@ -169,13 +167,13 @@ TEST_SUITE("tools/checkpoint") {
   TEST_CASE("random graphs and missions that are saved at random instants go on in a new process to their end") {
     const TemporaryFolder folder;
     std::vector<std::pair<std::string, Duration>> runs{{"specs/counting.yaml", 3s}, {"specs/window.yaml", 3s}};
-    for (std::uint64_t seed = 0; seed < (is_full() ? 2000U : 8U); ++seed) {
+    for (std::uint64_t seed = 0; seed < (tests::is_full() ? 2000U : 8U); ++seed) {
       const std::string name = "graph" + std::to_string(seed) + ".yaml";
       folder.write(name, oracle::to_yaml(oracle::random_model(seed), seed));
       runs.emplace_back(folder / name, 60ms);
     }
     for (const Mission& mission : missions()) {
-      if (!is_full()) continue;
+      if (!tests::is_full()) continue;
       std::string words = mission.spec;
       if (!mission.options.profile.empty()) words += " --profile " + mission.options.profile;
       for (const std::string& set : mission.options.set)

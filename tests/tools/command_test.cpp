@@ -79,7 +79,7 @@ tasks:
               ["digest_claimed"] == false);
   }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need memory of their own
+#ifndef JAROL_SANITIZED  // they need memory of their own
   TEST_CASE("what a machine has no memory for is reported in words") {
     const Result run = run_jarol("schema > /dev/null; ulimit -v 1000000; " JAROL_COMMAND
                                  " run specs/window.yaml --for 1s --set tasks.window.heap=1GiB");
@@ -210,10 +210,18 @@ connections: [i -> sum.in]
     const Result missing = run_jarol("run no/such.yaml");
     CHECK(missing.exit_code == 2);
     CHECK(missing.output == "error: can't read 'no/such.yaml': No such file or directory\n1 error\n");
+    CHECK(run_jarol("run specs/exoluav.yaml").output ==
+          "error: can't read 'specs/exoluav.yaml': No such file or directory; did you mean 'exolauv.yaml'?\n1 error\n");
     const Result endless = run_jarol("run specs/counting.yaml");
     CHECK(endless.exit_code == 2);
     CHECK(endless.output ==
           "error: 'specs/counting.yaml' has no mission that ends; say how long to run, as in --for 10s\n");
+    // where it ends is not asked of a run that can't begin
+    const Result linked = run_jarol(
+        "run specs/counting.yaml --set 'distributers={out: {type: SubmarineVehicle, link: {type: udp, peer: "
+        "\"127.0.0.1:9\"}}}'");
+    CHECK(linked.exit_code == 2);
+    CHECK(linked.output == "error: distributer 'out' has a link to what goes on by itself; run it with --clock real\n");
     const Result duration = run_jarol("run specs/counting.yaml --for 10");
     CHECK(duration.exit_code == 2);
     CHECK(duration.output == "error: --for: '10' has no unit; write one of h, min, s, ms, us or ns, as in 10ms\n");

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/how_many.h"
 #include "tests/tools/run_command.h"
 
 namespace {
@@ -68,7 +68,7 @@ tasks:
   sum: {type: Accumulate}
 connections: [functions.out -> sum.in]
 )");
-    const bool full = std::getenv("JAROL_FULL") != nullptr;
+    const bool full = jarol::tests::is_full();
     const std::vector<std::string> applications{"specs/exolauv.yaml",
                                                 "specs/exolauv.yaml --profile at_sea --seed 3",
                                                 "specs/javiator.yaml",

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "tests/how_many.h"
 #include "tests/tools/actuator_peer.h"
 #include "tests/tools/process.h"
 #include "tests/tools/run_command.h"
@@ -205,7 +206,7 @@ bool exists(const Ending& ending, const Way& way) {
 // Each ending on each link, and in each way on one, or all of them.
 template <class Wanted>
 void check_all(const std::string& at_end, const Wanted& wanted) {
-  const bool all = std::getenv("JAROL_FULL") != nullptr;
+  const bool all = jarol::tests::is_full();
   int count = 0;
   for (const Way& way : ways())
     for (const Ending& ending : endings()) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "runtime/execute/executor.h"
 #include "tasks/lauv/supervisor.h"
 #include "tasks/values/lauv.h"
+#include "tests/how_many.h"
 #include "tools/commands/run/load_graph.h"
 #include "tools/report/value_json.h"
 
@@ -124,7 +124,7 @@ TEST_SUITE("tools/exolauv") {
   }
 
   TEST_CASE("at sea, with noise, current and small waves, it keeps depth within 5 cm and heading within 2 degrees") {
-    const std::uint64_t seeds = std::getenv("JAROL_FULL") != nullptr ? 20 : 1;
+    const std::uint64_t seeds = tests::how_many(1, 20, 1);
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       CAPTURE(seed);
       const Dive done = dive("specs/exolauv.yaml:at_sea", {}, seed);

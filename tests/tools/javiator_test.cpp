@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <numbers>
 
+#include "tests/how_many.h"
 #include "tests/tools/flight.h"
 
 namespace {
@@ -19,7 +19,7 @@ constexpr double begin = 12;  // s, when the manoeuvre begins, after a take-off 
 
 // Some noise helps and some hinders: JAROL_FULL=1 tries more of it.
 std::vector<std::uint64_t> seeds() {
-  if (std::getenv("JAROL_FULL") == nullptr) return {1};
+  if (!tests::is_full()) return {1};
   return {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
 }
 

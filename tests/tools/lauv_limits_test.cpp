@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "graph/math/geometry.h"
 #include "tests/distributers/lauv/inline_messages.h"
+#include "tests/how_many.h"
 #include "tests/tools/lauv_mission.h"
 
 namespace {
@@ -16,7 +16,7 @@ using namespace jarol;
 using namespace jarol::tests;
 using test::Mission;
 
-const bool in_full = std::getenv("JAROL_FULL") != nullptr;
+const bool in_full = is_full();
 
 // What was reached.
 struct Reached {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <thread>
 
 #include "distributers/messages/imc.h"
 #include "tests/tools/process.h"
@@ -47,6 +48,38 @@ TEST_SUITE("tools/lauv_sockets") {
     vehicle.interrupt();
     CHECK(vehicle.end() == 130);
     CHECK(vehicle.output().find("NO PACKET") == std::string::npos);
+  }
+
+  TEST_CASE("of a vehicle that says nothing one is told after three seconds, and when it is heard") {
+    const std::string plant = tests::free_port(SOCK_DGRAM), core = tests::free_port(SOCK_DGRAM);
+    tests::Process graph("run specs/exolauv_bare.yaml --profile lab --clock real --for 1h --set " +
+                         ("distributers.dune.link.listen=" + core) + " --set distributers.dune.link.peer=127.0.0.1:" +
+                         plant + " --set distributers.neptus.link.listen=" + tests::free_port(SOCK_DGRAM));
+    CHECK(graph.rest_of_line("note: nothing has come from the vehicle of 'dune' in 3.")
+              .ends_with(" s; is it there? The run goes on, and hears it when it is"));
+    tests::Process vehicle("vehicle submarine --bare --link udp --listen " + plant + " --peer 127.0.0.1:" + core);
+    CHECK(graph.rest_of_line("note: after ").ends_with(" s every vehicle is heard"));
+    graph.interrupt();
+    CHECK(graph.end() == 130);
+    CHECK(graph.errors().find("nothing has come", graph.errors().find("every vehicle")) == std::string::npos);
+    vehicle.interrupt();
+    vehicle.end();
+  }
+
+  TEST_CASE("one that was never heard is brought to rest unseen, as is said; a second signal ends that") {
+    tests::Process graph(
+        "run specs/exolauv.yaml --clock real --for 1h --set 'distributers.dune.link={type: udp, peer: \"127.0.0.1:" +
+        tests::free_port(SOCK_DGRAM) + "\"}'");
+    CHECK(graph.says("note: nothing has come from the vehicle of 'dune' in 3."));
+    graph.interrupt();
+    CHECK(graph.says("note: nothing has come from the vehicle of 'dune', so that its rest can't be seen\n"));
+    CHECK(graph.says("interrupt again to hand over the safe commands at once\n"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));  // sooner it is one that came twice
+    graph.interrupt();
+    CHECK(graph.end() == 130);
+    CHECK(graph.errors().find(
+              "error: whether the vehicle came to rest is not known: it was silent when a second signal came\n") !=
+          std::string::npos);
   }
 
   TEST_CASE("two consoles at once steer one submarine; one leaves and comes again; who has no place is a stranger") {

@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <map>
 
@@ -12,6 +11,7 @@
 #include "runtime/execute/log_end.h"
 #include "runtime/record/recorded_run.h"
 #include "runtime/record/recording_writer.h"
+#include "tests/how_many.h"
 #include "tests/runtime/outside.h"
 #include "tests/runtime/trace_of.h"
 #include "tests/tools/run_command.h"
@@ -187,7 +187,7 @@ TEST_SUITE("tools/log_mutations") {
     std::erase_if(part.records, [&](const Record& r) { return whole.is_value(r) && r.time >= 30'000'000; });
     write(whole, path);
     REQUIRE(refusal_of(path) == "");
-    const std::uint64_t count = std::getenv("JAROL_FULL") != nullptr ? 200'000 : 20'000;
+    const std::uint64_t count = tests::how_many(20'000, 200'000, 5'000);
     std::uint64_t replayed = 0, refused = 0, in_record = 0;
     for (std::uint64_t seed = 0; seed < count; ++seed) {
       CAPTURE(seed);

@@ -4,7 +4,6 @@
 #include <sys/socket.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <fstream>
 #include <future>
 #include <sstream>
@@ -12,6 +11,7 @@
 
 #include "tests/distributers/links/lossy_proxy.h"
 #include "tests/distributers/links/stream_proxy.h"
+#include "tests/how_many.h"
 #include "tests/tools/process.h"
 #include "tests/tools/run_command.h"
 
@@ -22,8 +22,6 @@ using distributers::Address;
 using nlohmann::json;
 using tests::Process;
 using tests::ProxyCounts;
-
-bool full() { return std::getenv("JAROL_FULL") != nullptr; }
 
 constexpr tests::Disturbance bad_network{
     .loss = 0.1, .duplication = 0.05, .reordering = 0.05, .delay = 8ms, .held = 30ms};
@@ -95,7 +93,7 @@ class Flights {
                     "distributers.dune.link.listen=0 "
                     "--set distributers.dune.link.peer=" +
                         std::to_string(proxy.port()) + " --set distributers.neptus.link.file=" + dive_,
-                    full() ? 40 : 11);
+                    tests::is_full() ? 40 : 11);
     o.to_vehicle = proxy.to_target();
     o.from_vehicle = proxy.from_target();
     return o;
@@ -105,7 +103,7 @@ class Flights {
     return "specs/javiator.yaml --set expect=nothing --set at_end=null --set fault_limit=100% --set "
            "'distributers.robostix.link=" +
            link + "' --trace " + (folder_ / traced) +
-           " --set distributers.terminal.link.file=" + (full() ? "missions/hover.csv" : hop_);
+           " --set distributers.terminal.link.file=" + (tests::is_full() ? "missions/hover.csv" : hop_);
   }
 
   Outcome helicopter_over_udp(const std::string& traced, const std::string& more) const {
@@ -113,7 +111,7 @@ class Flights {
     tests::UdpProxy proxy(Address::parse(port), bad_network, 2);
     Outcome o = fly(proxy, "helicopter --parameters specs/vehicles/helicopter.yaml --link udp --listen " + port,
                     helicopter_graph("{type: udp, peer: " + std::to_string(proxy.port()) + "}", traced) + more,
-                    full() ? 38 : 14);
+                    tests::is_full() ? 38 : 14);
     o.to_vehicle = proxy.to_target();
     o.from_vehicle = proxy.from_target();
     return o;
@@ -121,9 +119,10 @@ class Flights {
 
   Outcome helicopter_on_a_line() const {
     tests::SerialProxy proxy(bad_line, 3);
-    Outcome o = fly(
-        proxy, "helicopter --parameters specs/vehicles/helicopter.yaml --link serial --device " + proxy.name(0),
-        helicopter_graph("{type: serial, device: " + proxy.name(1) + "}", "serial.csv") + patience, full() ? 38 : 14);
+    Outcome o =
+        fly(proxy, "helicopter --parameters specs/vehicles/helicopter.yaml --link serial --device " + proxy.name(0),
+            helicopter_graph("{type: serial, device: " + proxy.name(1) + "}", "serial.csv") + patience,
+            tests::is_full() ? 38 : 14);
     o.to_vehicle = proxy.from(1);
     o.from_vehicle = proxy.from(0);
     return o;
@@ -134,7 +133,7 @@ class Flights {
     tests::TcpProxy proxy(Address::parse(port), bad_connection, 4);
     Outcome o = fly(proxy, "helicopter --parameters specs/vehicles/helicopter.yaml --link tcp_server --listen " + port,
                     helicopter_graph("{type: tcp_client, peer: " + std::to_string(proxy.port()) + "}", "tcp.csv"),
-                    full() ? 38 : 14);
+                    tests::is_full() ? 38 : 14);
     o.to_vehicle = proxy.from(0);
     o.from_vehicle = proxy.from(1);
     return o;
@@ -202,12 +201,12 @@ void check_hop(const Outcome& o, const std::string& trace) {
   MESSAGE("ended at " << state.dump() << ", reported " << reported["state"].dump() << " " << reported["cause"].dump());
   const double highest = highest_of(trace, "to_terminal.altitude");
   MESSAGE("highest " << highest << " m");
-  CHECK(highest > (full() ? 0.9 : 0.3));
+  CHECK(highest > (tests::is_full() ? 0.9 : 0.3));
   CHECK(highest < 1.5);
   CHECK(std::abs(state["phi"].get<double>()) < 0.05);
   CHECK(std::abs(state["theta"].get<double>()) < 0.05);
   CHECK(std::abs(state["x"].get<double>()) < 0.3);
-  CHECK(std::abs(state["y"].get<double>() - (full() ? 3 : 0)) < 0.3);
+  CHECK(std::abs(state["y"].get<double>() - (tests::is_full() ? 3 : 0)) < 0.3);
   CHECK(o.vehicle["actuators"]["front"] < 3000);
 }
 }  // namespace
@@ -227,7 +226,7 @@ TEST_SUITE("tools/lossy") {
     const json& state = o.vehicle["state"];
     MESSAGE("ended at " << state.dump());
     const double depth = state["z"];
-    if (full()) {
+    if (tests::is_full()) {
       CHECK(depth == doctest::Approx(3).scale(0).epsilon(0.05));
       CHECK(state["u"].get<double>() == doctest::Approx(1.2).scale(0).epsilon(0.05));
     } else {

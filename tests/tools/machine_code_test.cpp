@@ -47,7 +47,7 @@ TEST_SUITE("tools/machine_code") {
     }
   }
 
-#ifndef __SANITIZE_ADDRESS__  // sanitizers call what is unknown here
+#ifndef JAROL_SANITIZED  // sanitizers call what is unknown here
   TEST_CASE("what could change the floating-point environment is named") {
     CHECK(find_floating_point_change(rounds(1)) == "calls 'fesetround'");
     for (const int how : {2, 3, 4, 7, 8, 9, 11})

@@ -155,7 +155,7 @@ TEST_SUITE("tools/printed") {
                            {"column", nullptr},
                            {"text", "can't read 'no.yaml': No such file or directory"},
                            {"notes", nlohmann::json::array()}});
-    CHECK(text_of("run --json") == "FILE is required");
+    CHECK(text_of("run --json") == "run: FILE is required");
     CHECK(text_of("run --json specs/counting.yaml --for 3") ==
           "--for: '3' has no unit; write one of h, min, s, ms, us or ns, as in 10ms");
     CHECK(text_of("run specs/counting.yaml --for 1s --jso --json").starts_with("run has no option '--jso'; did you"));

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
+#include "tests/how_many.h"
 #include "tests/tools/dive.h"
 
 namespace {
@@ -24,7 +24,7 @@ Dive dive_with(const std::string& parameters) {
 // One of many that take long each; all with JAROL_FULL.
 template <class Case, std::size_t N>
 std::vector<Case> chosen_of(const Case (&cases)[N]) {
-  if (std::getenv("JAROL_FULL") != nullptr) return {cases, cases + N};
+  if (jarol::tests::is_full()) return {cases, cases + N};
   return {cases[N / 2]};
 }
 
@@ -184,7 +184,7 @@ TEST_SUITE("tools/surfacing") {
         steepest = std::max(steepest, std::abs(sample.motion.theta));
       }
       CHECK(deepest < 6.5);
-      CHECK(steepest < 50 * degree);
+      CHECK(steepest < 50 * std::numbers::pi / 180);
       CHECK(done.samples.back().motion.z < 0.3);
     }
   }

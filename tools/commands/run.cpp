@@ -21,6 +21,7 @@
 #include "tools/commands/run/print_run.h"
 #include "tools/commands/run/prompt_line.h"
 #include "tools/commands/run/run_options.h"
+#include "tools/commands/run/silent_vehicles.h"
 #include "tools/commands/run/watch_run.h"
 #include "tools/commands/run/what_if.h"
 #include "tools/report/command_line.h"
@@ -83,19 +84,27 @@ bool steers(const RunArguments& arguments, const std::vector<ExternalSystem*>& s
 }
 
 // Begins and attends it at the terminal.
-const RunEnd& attend(Runner& runner, const RunArguments& arguments) {
+const RunEnd& attend(Runner& runner, const RunArguments& arguments, const std::vector<ExternalSystem*>& systems) {
   const bool shown = !arguments.json && isatty(STDERR_FILENO) != 0 && runner.end() != Duration::max() &&
                      arguments.concurrency != "threads";
   std::optional<Progress> progress;
   // made before the priority that threads of links take after this one
   progress.emplace(shown, runner.end(), [&] { return runner.joined().now(); });
   connect_unless_ended([&] { runner.begin(); });
-  return runner.attend(
-      {.wish = Interruptible::wish,
-       .note = note_promptly,
-       .on_rest = [&](const Ending& why) { write_promptly(printable_lines(rest_begins_text(runner.graph(), why))); },
-       .on_end = Interruptible::forbid_haste,
-       .on_stuck = {.report = report_stuck}});
+  SilentVehicles silent(runner.graph(), systems);
+  return runner.attend({.wish =
+                            [&] {
+                              silent.look();
+                              return Interruptible::wish();
+                            },
+                        .note = note_promptly,
+                        .on_rest =
+                            [&](const Ending& why) {
+                              silent.rest_begins();
+                              write_promptly(printable_lines(rest_begins_text(runner.graph(), why)));
+                            },
+                        .on_end = Interruptible::forbid_haste,
+                        .on_stuck = {.report = report_stuck}});
 }
 
 WhatIfSetup what_if_setup(const RunArguments& arguments, Duration end) {
@@ -144,7 +153,8 @@ int run(RunArguments arguments, WatchRun* watch) {
   std::vector<Save> written_saves;
   add_saves(saves, written_saves, options.stops);
   what_ifs.add_to(options.stops);
-  const bool may_steer = steers(arguments, pointers_to(loaded.systems));
+  const std::vector<ExternalSystem*> systems = pointers_to(loaded.systems);
+  const bool may_steer = steers(arguments, systems);
   std::optional<CrashLine> crash_line;
   Runner runner(std::move(loaded), std::move(options), [&](const Guard* guard) {
     crash_line.emplace(graph, guard != nullptr ? guard->process() : nullptr, arguments.recording.file());
@@ -156,7 +166,7 @@ int run(RunArguments arguments, WatchRun* watch) {
   }
   const Interruptible interruptible([] {}, may_steer ? HaltKey::ends : HaltKey::halts,
                                     runner.longest_rest() ? SecondSignal::hastens : SecondSignal::ends);
-  const RunEnd& run_end = attend(runner, arguments);
+  const RunEnd& run_end = attend(runner, arguments, systems);
   halt_if_asked(run_end);
   std::string not_run;  // of what-ifs
   try {

@@ -228,8 +228,10 @@ void CommandLine::parse(int argc, char** argv) {
       if (const std::string wrong = unknown_option(*words.command, words.own); !wrong.empty()) throw UsageError(wrong);
     const std::vector<std::string> left = words.command->remaining();
     const bool too_many = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !left.empty();
-    throw UsageError(too_many ? argument_too_many(*words.command, left.front(), words.own) : error.what(),
-                     "Run with --help for more information.\n");
+    std::string wrong = too_many ? argument_too_many(*words.command, left.front(), words.own) : error.what();
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && words.command != app_.get())
+      wrong = words.command->get_name() + ": " + wrong;
+    throw UsageError(std::move(wrong), "Run with --help for more information.\n");
   }
 }
 

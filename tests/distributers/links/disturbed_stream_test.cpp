@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <thread>
 
 #include "distributers/links/serial.h"
@@ -16,6 +15,7 @@
 #include "tests/distributers/links/raw_ends.h"
 #include "tests/distributers/links/stream_proxy.h"
 #include "tests/distributers/messages/damage.h"
+#include "tests/how_many.h"
 
 namespace {
 using namespace jarol;
@@ -23,8 +23,6 @@ using namespace jarol::distributers;
 using namespace jarol::messages;
 using namespace jarol::tests;
 using namespace std::chrono_literals;
-
-bool full() { return std::getenv("JAROL_FULL") != nullptr; }
 
 // A link, the proxy before it, and what writes into that.
 class Route {
@@ -162,7 +160,7 @@ bool is_within(const std::vector<Bytes>& due, const std::vector<Bytes>& came) {
 void check_cut(const std::string& kind) {
   for (const Protocol& protocol : protocols()) {
     Route route(kind, protocol.set, {.delay = 100us, .longest_piece = 1});
-    const SentThrough o = send_through(route, protocol, full() ? 1000 : 80, 0);
+    const SentThrough o = send_through(route, protocol, is_full() ? 1000 : 80, 0);
     CHECK(o.hit == 0);
     CHECK(o.came == o.due);
     CHECK(o.counts.lost == 0);
@@ -184,7 +182,7 @@ TEST_SUITE("distributers/links/disturbed_stream") {
       const MessageSet& set = protocol.set;
       // a length that is wrong makes it wait for as many bytes
       const std::size_t longest = set.header_size() + set.max_payload + set.footer_size();
-      const SentThrough o = send_through(route, protocol, full() ? 200'000 : 3000, longest);
+      const SentThrough o = send_through(route, protocol, is_full() ? 200'000 : 3000, longest);
       CHECK(o.hit > o.sent / 10);
       CHECK(is_within(o.due, o.came));
       // two bytes damaged in one packet may leave the sum right

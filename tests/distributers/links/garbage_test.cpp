@@ -2,13 +2,13 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <deque>
 #include <thread>
 
 #include "distributers/messages/payload.h"
 #include "tests/distributers/links/raw_ends.h"
 #include "tests/distributers/messages/damage.h"
+#include "tests/how_many.h"
 
 namespace {
 using namespace jarol;
@@ -18,7 +18,7 @@ using namespace jarol::tests;
 using namespace std::chrono_literals;
 
 // of each sort on each kind of link, shared by the message sets
-std::size_t packet_count() { return std::getenv("JAROL_FULL") != nullptr ? 1'000'000 : 2'000; }
+std::size_t packet_count() { return tests::how_many(2'000, 1'000'000, 2'000); }
 
 struct Expected {
   std::uint32_t id = 0;

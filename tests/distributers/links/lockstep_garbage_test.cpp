@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <cstdlib>
 #include <cstring>
 #include <thread>
 
@@ -18,6 +17,7 @@
 #include "distributers/messages/javiator.h"
 #include "distributers/messages/packet.h"
 #include "tests/distributers/messages/damage.h"
+#include "tests/how_many.h"
 
 namespace {
 using namespace jarol;
@@ -26,7 +26,7 @@ using namespace jarol::tests;
 namespace javiator = messages::javiator;
 
 // at either end, each with a random and a damaged packet
-std::size_t session_count() { return std::getenv("JAROL_FULL") != nullptr ? 500'000 : 1'000; }
+std::size_t session_count() { return tests::how_many(1'000, 500'000, 1'000); }
 
 const Protocol& protocol() { return protocols()[1]; }
 

@@ -2,12 +2,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "distributers/messages/packet.h"
 #include "distributers/messages/payload.h"
 #include "distributers/messages/stream_reader.h"
 #include "tests/distributers/messages/damage.h"
+#include "tests/how_many.h"
 
 using namespace jarol;
 using namespace jarol::messages;
@@ -15,7 +15,7 @@ using namespace jarol::tests;
 
 namespace {
 
-int packet_count() { return std::getenv("JAROL_FULL") != nullptr ? 1'000'000 : 50'000; }
+int packet_count() { return jarol::tests::how_many(50'000, 1'000'000, 50'000); }
 
 }  // namespace
 

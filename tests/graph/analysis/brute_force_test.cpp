@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "graph/analysis/check.h"
+#include "tests/how_many.h"
 
 namespace {
 using namespace jarol;
@@ -132,13 +133,7 @@ std::optional<std::vector<std::int64_t>> over_all_offsets(const TimedSet& set, c
   }
 }
 
-std::uint64_t count_of_sets() {
-#ifdef __OPTIMIZE__
-  return 20'000;
-#else
-  return 1'000;
-#endif
-}
+std::uint64_t count_of_sets() { return tests::how_many(20'000, 20'000, 1'000); }
 
 // Each task's activations take all, one unit or none, as `choice` says.
 bool some_shorter_execution_misses(const TimedSet& set, const Policy& policy) {

@@ -12,6 +12,7 @@
 #include "tests/graph/analysis/judged.h"
 #include "tests/graph/analysis/late_truth.h"
 #include "tests/graph/graph_of.h"
+#include "tests/how_many.h"
 
 namespace {
 using namespace jarol;
@@ -176,13 +177,7 @@ struct WholeTally {
 // JAROL_SETS of each policy, else as many as there is time for.
 std::uint64_t count_of_tried() {
   if (const char* count = std::getenv("JAROL_SETS")) return std::strtoull(count, nullptr, 10);
-#if defined(__SANITIZE_ADDRESS__)
-  return 1'500;
-#elif defined(__OPTIMIZE__)
-  return std::getenv("JAROL_FULL") != nullptr ? 100'000 : 20'000;
-#else
-  return 100;
-#endif
+  return tests::how_many(20'000, 100'000, 500);
 }
 }  // namespace
 
@@ -193,10 +188,11 @@ TEST_SUITE("graph/analysis/late_responses") {
       const truth::Features features{
           .jitter = true, .blocking = false, .data_flow = true, .any_phasing = true, .cores = 2};
       Tally tally;
-      for (std::uint64_t seed = 0; seed < 3000; ++seed) tally.add(truth::random_set(seed, policy, features), seed);
+      const auto count = tests::how_many<std::uint64_t>(3000, 3000);
+      for (std::uint64_t seed = 0; seed < count; ++seed) tally.add(truth::random_set(seed, policy, features), seed);
       CAPTURE(policy.name);
       MESSAGE(tally.sets << " sets, " << tally.reported << " responses, " << tally.reached << " of these reached");
-      CHECK(tally.sets > 100);
+      CHECK(tally.sets > count / 30);
       CHECK_MESSAGE(tally.short_ones == 0, tally.first);
     }
   }

@@ -1,25 +1,18 @@
 // What `check` says of random sets, and what runs on their platforms do: a "yes" is never followed by a miss.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <numeric>
 
 #include "graph/analysis/check.h"
 #include "graph/analysis/execution_times.h"
 #include "tests/graph/analysis/random_sets.h"
+#include "tests/how_many.h"
 
 namespace {
 using namespace jarol;
 using analysis::ExecutionTimes, analysis::Fate, analysis::Schedule, analysis::Verdict;
 
-std::uint64_t count_of_schedules() {
-  if (std::getenv("JAROL_FULL") != nullptr) return 20'000;
-#if defined(__OPTIMIZE__) && !defined(__SANITIZE_THREAD__)
-  return 400;
-#else
-  return 60;
-#endif
-}
+std::uint64_t count_of_schedules() { return tests::how_many(400, 20'000, 60); }
 
 // The first activation that is late or left out within so many hyperperiods after all offsets, as "a 3"; empty: none.
 std::string first_miss(const Graph& graph, ExecutionTimes times, std::int64_t hyperperiods) {

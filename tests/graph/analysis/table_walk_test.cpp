@@ -2,11 +2,10 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdlib>
-
 #include "graph/analysis/check.h"
 #include "tests/graph/analysis/random_sets.h"
 #include "tests/graph/analysis/truth.h"
+#include "tests/how_many.h"
 
 namespace {
 using namespace jarol;
@@ -18,13 +17,7 @@ std::vector<std::size_t> cores_of(const analysis::Result& result) {
   return core;
 }
 
-std::uint64_t count_of_tables() {
-#ifdef __OPTIMIZE__
-  return std::getenv("JAROL_FULL") != nullptr ? 1'000'000 : 50'000;
-#else
-  return 500;
-#endif
-}
+std::uint64_t count_of_tables() { return tests::how_many(50'000, 1'000'000, 10'000); }
 }  // namespace
 
 TEST_SUITE("graph/analysis/table_walk") {

@@ -10,6 +10,7 @@
 
 #include "graph/math/functions.h"
 #include "tests/graph/math/reference.h"
+#include "tests/how_many.h"
 
 namespace {
 
@@ -39,7 +40,7 @@ struct Random {
   }
 };
 
-long arguments() { return std::getenv("JAROL_FULL") ? 10'000'000 : 20'000; }
+long arguments() { return jarol::tests::how_many(20'000, 10'000'000, 20'000); }
 
 struct Worst {
   double error = 0.0, x = 0.0, y = 0.0;
@@ -85,7 +86,7 @@ constexpr double min = 5e-324, greatest = 1.7976931348623157e308;
 
 void check(const std::string& name, const Worst& worst, double limit) {
   INFO(name << " at " << worst.x << ", " << worst.y << ": " << worst.error << " ulp");
-  if (std::getenv("JAROL_FULL") || std::getenv("VERBOSE"))
+  if (jarol::tests::is_full() || std::getenv("VERBOSE"))
     MESSAGE(name << " " << worst.error << " ulp at " << worst.x << ", " << worst.y);
   CHECK(worst.error <= limit);
   // of so many results that are rounded some are nearly half a unit off: less says that little was compared

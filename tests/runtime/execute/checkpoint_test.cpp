@@ -1,13 +1,13 @@
 // A run that is saved between any two instants and goes on in another executor ends as the one in one piece.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <cstring>
 
 #include "graph/values/archive.h"
 #include "graph/values/seed.h"
 #include "runtime/execute/executor.h"
 #include "tests/graph/graph_of.h"
+#include "tests/how_many.h"
 #include "tests/runtime/random_model.h"
 
 namespace {
@@ -129,12 +129,11 @@ Duration any_instant(Duration end, std::uint64_t seed) {
   return Duration(static_cast<std::int64_t>(spread_seed(seed, "at") % static_cast<std::uint64_t>(end.count() + 1)));
 }
 
-bool is_full() { return std::getenv("JAROL_FULL") != nullptr; }
 }  // namespace
 
 TEST_SUITE("runtime/checkpoint") {
   TEST_CASE("random graphs that are saved and restored end as in one piece") {
-    const std::uint64_t graphs = is_full() ? 2'000 : 200;
+    const std::uint64_t graphs = tests::how_many(200, 2'000, 200);
     for (std::uint64_t seed = 0; seed < graphs; ++seed) {
       CAPTURE(seed);
       const Graph graph = tests::graph_of(oracle::to_yaml(oracle::random_model(seed), 0));
@@ -144,7 +143,7 @@ TEST_SUITE("runtime/checkpoint") {
 
   TEST_CASE("deep values, heaps that overflow, faults and LETs under way are restored to the bit") {
     std::uint64_t faults = 0;
-    for (std::uint64_t seed = 0; seed < (is_full() ? 500U : 40U); ++seed) {
+    for (std::uint64_t seed = 0; seed < tests::how_many(40U, 500U, 40U); ++seed) {
       CAPTURE(seed);
       const Graph graph = tests::graph_of(registry(), diaries(seed));
       check_goes_on(graph, 300ms, any_instant(300ms, seed), seed);
@@ -161,7 +160,7 @@ TEST_SUITE("runtime/checkpoint") {
     first.run_until(40ms);
     const Archive::Bytes good = saved(first);
     std::uint64_t refused = 0;
-    for (std::uint64_t seed = 0; seed < (is_full() ? 20'000U : 1'000U); ++seed) {
+    for (std::uint64_t seed = 0; seed < tests::how_many(1'000U, 20'000U, 1'000U); ++seed) {
       CAPTURE(seed);
       Archive::Bytes bytes = good;
       for (std::uint64_t i = 0; i <= seed % 3; ++i) {

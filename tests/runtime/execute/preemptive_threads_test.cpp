@@ -3,9 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdlib>
-
 #include "graph/text/errors.h"
+#include "tests/how_many.h"
 #include "tests/runtime/random_model.h"
 #include "tests/runtime/run_on_threads.h"
 
@@ -33,7 +32,7 @@ void check_random_graph(std::uint64_t seed, const Mode& mode, int pieces) {
 
 TEST_SUITE("runtime/preemptive_threads") {
   TEST_CASE("random graphs publish what they publish on the virtual clock, whoever runs their tasks") {
-    const std::uint64_t count = std::getenv("JAROL_FULL") != nullptr ? 200 : 4;
+    const std::uint64_t count = tests::how_many(4, 200, 4);
     for (std::uint64_t seed = 0; seed < count; ++seed)
       for (const Mode& mode : modes) check_random_graph(seed, mode, 1);
   }

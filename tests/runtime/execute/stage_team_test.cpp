@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstdlib>
 #include <stdexcept>
 #include <thread>
 
+#include "tests/how_many.h"
 #include "tests/runtime/random_model.h"
 #include "tests/runtime/trace_of.h"
 
@@ -19,15 +19,7 @@ using namespace std::chrono_literals;
 
 constexpr std::array<std::size_t, 3> counts{2, 4, 8};
 
-std::uint64_t graph_count() {
-#if defined(__OPTIMIZE__) && !defined(__SANITIZE_THREAD__)
-  return 1'000;
-#else
-  return 40;
-#endif
-}
-
-bool is_full() { return std::getenv("JAROL_FULL") != nullptr; }
+std::uint64_t graph_count() { return tests::how_many(1'000, 1'000, 40); }
 
 // Threads that do nothing but take processors away.
 class Load {
@@ -65,7 +57,7 @@ Result run_with(const Graph& graph, std::size_t workers, Sharing sharing, Durati
 
 // On a busy machine workers that wait for each other take long: fewer graphs then, but with JAROL_FULL.
 void check_random_graphs(std::uint64_t count) {
-  const auto end = std::chrono::steady_clock::now() + (is_full() ? 1h : 5s);
+  const auto end = std::chrono::steady_clock::now() + (tests::is_full() ? 1h : 5s);
   for (std::uint64_t seed = 0; seed < count && (seed < 10 || std::chrono::steady_clock::now() < end); ++seed) {
     const Graph graph = tests::graph_of(oracle::to_yaml(oracle::random_model(seed), 0));
     const Result one = run_with(graph, 1, Sharing::if_it_pays, 20ms);
@@ -183,7 +175,7 @@ TEST_SUITE("runtime/stage_team") {
 
   TEST_CASE("on a loaded machine too") {
     const Load load(4);
-    check_random_graphs(graph_count() / (is_full() ? 1 : 10));
+    check_random_graphs(graph_count() / (tests::is_full() ? 1 : 10));
   }
 
   TEST_CASE("deep values of two periods reach one heap in the same order for any number of workers") {

@@ -2,10 +2,9 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdlib>
-
 #include <string>
 
+#include "tests/how_many.h"
 #include "tests/runtime/jarol/bytes_of.h"
 #include "tests/runtime/model/port_program.h"
 #include "tests/runtime/port_stress.h"
@@ -84,7 +83,7 @@ TEST_SUITE("runtime/push_port") {
 
   TEST_CASE("a writer and a reader in every interleaving" * doctest::skip(!model::available)) {
     using Explored = BasicPushPort<model::ModelMemory<>>;
-    const bool full = std::getenv("JAROL_FULL") != nullptr;
+    const bool full = tests::is_full();
     for (const int capacity : {1, 2, 3})
       for (const int before : {0, capacity, capacity + 1}) {
         CAPTURE(capacity);

@@ -3,9 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
-#include <cstdlib>
 #include <thread>
 #include <vector>
+
+#include "tests/how_many.h"
 
 namespace {
 using namespace jarol;
@@ -74,7 +75,7 @@ TEST_SUITE("runtime/signal") {
   }
 
   TEST_CASE("two threads that signal each other, many times") {
-    const bool full = std::getenv("JAROL_FULL") != nullptr;
+    const bool full = tests::is_full();
     const std::uint64_t max = full ? 10'000'000 : 20'000;
     Signal there, back;
     std::uint64_t value = 0, wrong = 0;
@@ -97,7 +98,7 @@ TEST_SUITE("runtime/signal") {
   }
 
   TEST_CASE("many who wait for moments and many who signal: every signalling is somebody's") {
-    const auto end = MachineClock::now() + (std::getenv("JAROL_FULL") != nullptr ? 30000ms : 300ms);
+    const auto end = MachineClock::now() + (tests::is_full() ? 30000ms : 300ms);
     Signal signal;
     std::atomic<std::uint64_t> done{0}, woken{0};
     // longer where a busy machine let them never meet

@@ -15,16 +15,13 @@
 #include <unordered_set>
 #include <vector>
 
+#include "graph/build_options.h"
 #include "tests/runtime/model/view.h"
 
 namespace jarol::model {
 
 /// The thread sanitizer does not know fibres.
-#if defined(__SANITIZE_THREAD__)
-inline constexpr bool available = false;
-#else
-inline constexpr bool available = true;
-#endif
+constexpr bool available = options_of_this_file().thread_sanitizer == 0;
 
 struct Program {
   std::vector<std::function<void()>> threads;

@@ -3,9 +3,9 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <cstring>
 
+#include "tests/how_many.h"
 #include "tests/runtime/outside.h"
 #include "tests/runtime/random_model.h"
 #include "tests/runtime/run_on_threads.h"
@@ -260,7 +260,7 @@ connections: [i -> a.in, a.out -> b.in, b.out -> o, a.out -> under_way.in]
   }
 
   TEST_CASE("random graphs that a machine can't always keep up with give again what they gave") {
-    const std::uint64_t count = std::getenv("JAROL_FULL") != nullptr ? 500 : 10;
+    const std::uint64_t count = tests::how_many(10, 500, 5);
     std::size_t misses = 0;
     for (std::uint64_t seed = 0; seed < count; ++seed)
       for (const Mode& mode : every_mode) {

@@ -1,13 +1,13 @@
 // Random graphs are recorded as a whole and replayed from their files: every value is the same.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "runtime/execute/log_end.h"
 #include "runtime/record/recorded_run.h"
 #include "runtime/record/recording_writer.h"
 #include "runtime/record/replayed_values.h"
+#include "tests/how_many.h"
 #include "tests/runtime/random_model.h"
 #include "tests/runtime/run_on_threads.h"
 
@@ -89,7 +89,7 @@ void check_replay(const Graph& graph, const std::string& path, const Report& sho
   CHECK(values.differences().compared() == recorded);
 }
 
-std::uint64_t count_of_graphs(std::uint64_t few) { return std::getenv("JAROL_FULL") != nullptr ? 1000 : few; }
+std::uint64_t count_of_graphs(std::uint64_t few) { return tests::how_many<std::uint64_t>(few, 1000, few); }
 }  // namespace
 
 TEST_SUITE("runtime/random_recordings") {

@@ -70,7 +70,10 @@ void require_effect(const Command& command, const RunArguments& options) {
 Duration end_of_run(const RunArguments& options, const Loaded& loaded) {
   if (!options.duration.empty()) return length_of("--for", options.duration);
   const Duration end = end_of_mission(pointers_to(loaded.systems));
-  if (end == Duration{} && (options.clock == "real" || !operators_at_console(loaded).empty())) return Duration::max();
+  // a run that needs the real clock has no end either: that it does not have that clock is said first
+  if (end == Duration{} &&
+      (options.clock == "real" || find_in_real_time(loaded) != nullptr || !operators_at_console(loaded).empty()))
+    return Duration::max();
   if (end == Duration{})
     throw InputError("'" + options.file + "' has no mission that ends; say how long to run, as in --for 10s");
   return end;

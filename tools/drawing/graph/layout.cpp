@@ -1,9 +1,6 @@
 #include "tools/drawing/graph/layout.h"
 
 #include <graphviz/gvc.h>
-#if defined(__SANITIZE_ADDRESS__)
-#include <sanitizer/lsan_interface.h>
-#endif
 
 #include <algorithm>
 #include <map>
@@ -11,6 +8,7 @@
 #include <mutex>
 #include <string>
 
+#include "graph/build_options.h"
 #include "graph/language/quantities.h"
 #include "graph/text/errors.h"
 
@@ -211,14 +209,19 @@ void move_in(Drawing& drawing) {
   drawing.height = std::max(drawing.height + dy, drawing.core_y + drawing.core_height + border);
 }
 
-// The library loses some hundred bytes of each drawing, which is not for our sanitizers.
+// The library loses some hundred bytes of each drawing, which is not for our sanitizers; by their lsan_interface.h.
+extern "C" void __lsan_disable();
+extern "C" void __lsan_enable();
 struct UnseenLeaks {
-#if defined(__SANITIZE_ADDRESS__)
-  UnseenLeaks() { __lsan_disable(); }
-  ~UnseenLeaks() { __lsan_enable(); }
+  static constexpr bool looked_for = options_of_this_file().address_sanitizer != 0;
+  UnseenLeaks() {
+    if constexpr (looked_for) __lsan_disable();
+  }
+  ~UnseenLeaks() {
+    if constexpr (looked_for) __lsan_enable();
+  }
   UnseenLeaks(const UnseenLeaks&) = delete;
   UnseenLeaks& operator=(const UnseenLeaks&) = delete;
-#endif
 };
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST_SUITE("tools/interrupt") {
     const std::string graph =
         folder.write("g.yaml", "{graph: g, plugins: [endless.so], tasks: {a: {type: Endless, period: 10ms}}}\n");
     const std::string report = folder / "report.txt", trace = folder / "t.csv";
-#ifdef __SANITIZE_ADDRESS__
+#ifdef JAROL_SANITIZED
     constexpr int longest = 3000;  // ms
 #else
     constexpr int longest = 1000;
