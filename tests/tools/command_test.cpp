@@ -218,7 +218,7 @@ connections: [i -> sum.in]
           "error: 'specs/counting.yaml' has no mission that ends; say how long to run, as in --for 10s\n");
     // where it ends is not asked of a run that can't begin
     const Result linked = run_jarol(
-        "run specs/counting.yaml --set 'distributers={out: {type: SubmarineVehicle, link: {type: udp, peer: "
+        "run specs/counting.yaml --set 'distributers={out: {type: LauvVehicle, link: {type: udp, peer: "
         "\"127.0.0.1:9\"}}}'");
     CHECK(linked.exit_code == 2);
     CHECK(linked.output == "error: distributer 'out' has a link to what goes on by itself; run it with --clock real\n");

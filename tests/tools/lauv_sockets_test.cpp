@@ -57,7 +57,7 @@ TEST_SUITE("tools/lauv_sockets") {
                          plant + " --set distributers.neptus.link.listen=" + tests::free_port(SOCK_DGRAM));
     CHECK(graph.rest_of_line("note: nothing has come from the vehicle of 'dune' in 3.")
               .ends_with(" s; is it there? The run goes on, and hears it when it is"));
-    tests::Process vehicle("vehicle submarine --bare --link udp --listen " + plant + " --peer 127.0.0.1:" + core);
+    tests::Process vehicle("vehicle submarine --bare --link udp --listen " + plant + " --id 0x00D1");
     CHECK(graph.rest_of_line("note: after ").ends_with(" s every vehicle is heard"));
     graph.interrupt();
     CHECK(graph.end() == 130);
@@ -76,7 +76,9 @@ TEST_SUITE("tools/lauv_sockets") {
     CHECK(graph.says("interrupt again to hand over the safe commands at once\n"));
     std::this_thread::sleep_for(std::chrono::milliseconds(700));  // sooner it is one that came twice
     graph.interrupt();
-    CHECK(graph.end() == 130);
+    CHECK(graph.end() == 3);  // as its vehicle was not there
+    CHECK(graph.errors().find("error: nothing came from the vehicle of 'dune' in the whole run; is it there?\n") !=
+          std::string::npos);
     CHECK(graph.errors().find(
               "error: whether the vehicle came to rest is not known: it was silent when a second signal came\n") !=
           std::string::npos);
