@@ -55,7 +55,7 @@ TEST_SUITE("tools/lauv_sockets") {
     tests::Process graph("run specs/exolauv_bare.yaml --profile lab --clock real --for 1h --set " +
                          ("distributers.dune.link.listen=" + core) + " --set distributers.dune.link.peer=127.0.0.1:" +
                          plant + " --set distributers.neptus.link.listen=" + tests::free_port(SOCK_DGRAM));
-    CHECK(graph.rest_of_line("note: nothing has come from the vehicle of 'dune' in 3.")
+    CHECK(graph.rest_of_line("note: nothing has come from the vehicle of 'dune' in ")
               .ends_with(" s; is it there? The run goes on, and hears it when it is"));
     tests::Process vehicle("vehicle submarine --bare --link udp --listen " + plant + " --id 0x00D1");
     CHECK(graph.rest_of_line("note: after ").ends_with(" s every vehicle is heard"));
@@ -70,7 +70,7 @@ TEST_SUITE("tools/lauv_sockets") {
     tests::Process graph(
         "run specs/exolauv.yaml --clock real --for 1h --set 'distributers.dune.link={type: udp, peer: \"127.0.0.1:" +
         tests::free_port(SOCK_DGRAM) + "\"}'");
-    CHECK(graph.says("note: nothing has come from the vehicle of 'dune' in 3."));
+    CHECK(graph.says("note: nothing has come from the vehicle of 'dune' in "));
     graph.interrupt();
     CHECK(graph.says("note: nothing has come from the vehicle of 'dune', so that its rest can't be seen\n"));
     CHECK(graph.says("interrupt again to hand over the safe commands at once\n"));
