@@ -206,6 +206,7 @@ TEST_SUITE("graph/analysis/brute_force") {
       }
     }
     CHECK(undecided == 0);
+    if (tests::tries_less) return;  // they are so rare that few sets show none
     // the few patterns that are tried find most of them
     CHECK(by_few_shorter > by_shorter / 2);
     CHECK(by_shorter > 0);
