@@ -46,7 +46,7 @@ chains:
 std::vector<std::shared_ptr<const Source>> graphs() {
   std::vector<std::shared_ptr<const Source>> all;
   for (const char* name : {"counting", "exolauv", "exolauv_bare", "javiator", "passthrough", "window"}) {
-    if (tests::tries_less && std::string(name).find("exolauv") == 0) continue;  // they take longest
+    if (tests::tries_less && name != std::string("counting")) continue;  // they take longest
     all.push_back(read_source("specs/" + std::string(name) + ".yaml"));
   }
   const auto add = [&](const std::string& name, const std::string& text) {
