@@ -16,15 +16,14 @@ inline constexpr bool tries_less = true;
 inline constexpr bool tries_less = false;
 #endif
 
-/// How many cases a test tries: `usual`, or `full` with JAROL_FULL, or `less` where tries_less, a tenth of `usual` if
-/// it is not given.
+/// How many cases a test tries: `usual`, or `full` with JAROL_FULL, or `less` where tries_less, if it takes long there.
 template <class Count>
 Count how_many(Count usual, Count full, Count less) {
   return is_full() ? full : tries_less ? less : usual;
 }
 template <class Count>
 Count how_many(Count usual, Count full) {
-  return how_many(usual, full, usual / 10);
+  return how_many(usual, full, usual);
 }
 
 }  // namespace jarol::tests

@@ -112,7 +112,7 @@ TEST_SUITE("runtime/real_yes") {
     }
     RealTimeOptions options = undisturbed();
     options.core_cpus = {machine().usable[0], machine().usable[1]};
-    const int count = tests::how_many(4, 100, 4);
+    const int count = tests::how_many(4, 100);
     for (const Policy& policy : {policies::table, policies::fixed_priority}) {
       std::uint64_t seed = 0;
       for (int i = 0; i < count; ++i) {

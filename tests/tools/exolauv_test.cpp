@@ -124,7 +124,7 @@ TEST_SUITE("tools/exolauv") {
   }
 
   TEST_CASE("at sea, with noise, current and small waves, it keeps depth within 5 cm and heading within 2 degrees") {
-    const std::uint64_t seeds = tests::how_many(1, 20, 1);
+    const std::uint64_t seeds = tests::how_many(1, 20);
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       CAPTURE(seed);
       const Dive done = dive("specs/exolauv.yaml:at_sea", {}, seed);

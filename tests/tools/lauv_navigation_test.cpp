@@ -44,7 +44,7 @@ TEST_SUITE("tools/lauv_navigation") {
       const Lost calm = after_100_s("", north, east, 0);
       CHECK(calm.place < 0.5);
       CHECK(calm.current < 0.02);
-      const std::uint64_t seeds = tests::how_many(5, 100, 5);
+      const std::uint64_t seeds = tests::how_many(5, 100);
       for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         CAPTURE(seed);
         const Lost at_sea = after_100_s("at_sea", north, east, seed);

@@ -26,7 +26,7 @@ using namespace jarol::tests;
 namespace javiator = messages::javiator;
 
 // at either end, each with a random and a damaged packet
-std::size_t session_count() { return tests::how_many(1'000, 500'000, 1'000); }
+std::size_t session_count() { return tests::how_many(1'000, 500'000); }
 
 const Protocol& protocol() { return protocols()[1]; }
 

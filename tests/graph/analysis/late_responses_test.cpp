@@ -188,7 +188,7 @@ TEST_SUITE("graph/analysis/late_responses") {
       const truth::Features features{
           .jitter = true, .blocking = false, .data_flow = true, .any_phasing = true, .cores = 2};
       Tally tally;
-      const auto count = tests::how_many<std::uint64_t>(3000, 3000);
+      const auto count = tests::how_many<std::uint64_t>(3000, 3000, 300);
       for (std::uint64_t seed = 0; seed < count; ++seed) tally.add(truth::random_set(seed, policy, features), seed);
       CAPTURE(policy.name);
       MESSAGE(tally.sets << " sets, " << tally.reported << " responses, " << tally.reached << " of these reached");

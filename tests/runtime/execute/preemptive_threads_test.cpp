@@ -32,7 +32,7 @@ void check_random_graph(std::uint64_t seed, const Mode& mode, int pieces) {
 
 TEST_SUITE("runtime/preemptive_threads") {
   TEST_CASE("random graphs publish what they publish on the virtual clock, whoever runs their tasks") {
-    const std::uint64_t count = tests::how_many(4, 200, 4);
+    const std::uint64_t count = tests::how_many(4, 200);
     for (std::uint64_t seed = 0; seed < count; ++seed)
       for (const Mode& mode : modes) check_random_graph(seed, mode, 1);
   }
