@@ -136,4 +136,8 @@ void Guardian::LinkHolder::hold(int fd, const std::vector<Address>& peers) {
 
 void Guardian::LinkHolder::let_go() { say(guardian_.socket_.get(), {Word::let_go, link_}); }
 
+void Guardian::LinkHolder::leave_alone(bool steers_itself) {
+  say(guardian_.socket_.get(), {steers_itself ? Word::spare : Word::care, link_});
+}
+
 }  // namespace jarol::distributers

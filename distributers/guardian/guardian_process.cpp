@@ -78,6 +78,7 @@ class Watch {
     if (word == Word::packet) wards_[link].add(heard.bytes);
     if (word == Word::key) seal(wards_[link], heard.bytes);
     if (word == Word::let_go) wards_[link].let_go();
+    if (word == Word::spare || word == Word::care) wards_[link].leave_alone(word == Word::spare);
     if (word != Word::hold) return;
     wards_[link].hold(std::move(heard.fd), addresses_in(heard.bytes));
   }

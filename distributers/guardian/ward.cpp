@@ -16,7 +16,7 @@ void Ward::hold(Descriptor fd, std::vector<Address> peers) {
 }
 
 void Ward::send() {
-  if (!fd_ || !rest_.empty()) return;
+  if (!fd_ || !rest_.empty() || steers_itself_) return;
   for (std::vector<std::byte>& packet : packets_) {
     stamp(stamping_, packet);
     std::span<const std::byte> bytes = packet;
@@ -59,7 +59,8 @@ void Ward::write(std::span<const std::byte> bytes) {
 }
 
 std::string Ward::text() const {
-  return std::to_string(sent_) + (sent_ == 1 ? " packet" : " packets") + " over " + text_;
+  return std::to_string(sent_) + (sent_ == 1 ? " packet" : " packets") + " over " + text_ +
+         (steers_itself_ ? ", where the vehicle steers itself" : "");
 }
 
 }  // namespace jarol::distributers

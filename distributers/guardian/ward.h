@@ -22,8 +22,10 @@ class Ward {
   void seal_with(const GuardianKey& key) { seal_.emplace(key); }
   void hold(Descriptor fd, std::vector<Address> peers);
   void let_go() { fd_.close(); }
+  void leave_alone(bool steers_itself) { steers_itself_ = steers_itself; }
 
-  /// All packets once, datagrams to each peer. A stream that has no room for them takes them later.
+  /// All packets once, datagrams to each peer; none to what steers itself. A stream that has no room for them takes
+  /// them later.
   void send();
   /// What a stream had no room for, as much as there is now; false: nothing is left.
   bool send_rest();
@@ -43,6 +45,7 @@ class Ward {
   Descriptor fd_;
   std::vector<Address> peers_;
   bool datagrams_ = false;
+  bool steers_itself_ = false;
   std::vector<std::byte> rest_;
   std::uint64_t sent_ = 0;
 };

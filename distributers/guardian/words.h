@@ -19,6 +19,8 @@ enum class Word : std::uint32_t {
   ready,    // all that was said is understood: asked by the program, answered by the guardian; bytes: Urgency
   hold,     // of a link: its way to the peers, a descriptor; bytes: a sockaddr_storage for each
   let_go,   // of a link: it has no way any more
+  spare,    // of a link: what is there steers itself, so that nothing is sent
+  care,     // of a link: no longer
   armed,    // from now on the end of the program is a crash, unless it says `closed` before
   crashed,  // the program is about to end
   closed,   // the program ends in good order

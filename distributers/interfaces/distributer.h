@@ -27,9 +27,9 @@
 //
 // It may have further members, each called at its time, see any_distributer.h: reach(Duration, messages::Receiver&),
 // announce(Duration, messages::Receiver&), any_message(const messages::MessageRef&), peer_changed(),
-// listen_at(const std::string&), ending(), overrides_end() const, finish(), take_over(), non_finite_inputs() const; and
-// serialize(Archive&), which gives the archive all that changes while a run goes on beside `in`: without it a run can
-// be saved only where there is nothing of that sort.
+// listen_at(const std::string&), ending(), overrides_end() const, steers_itself() const, finish(), take_over(),
+// non_finite_inputs() const; and serialize(Archive&), which gives the archive all that changes while a run goes on
+// beside `in`: without it a run can be saved only where there is nothing of that sort.
 #pragma once
 
 #include <concepts>

@@ -60,6 +60,10 @@ class Typed final : public AnyDistributer {
     if constexpr (detail::has_overrides_end<D>) return distributer_.overrides_end();
     return false;
   }
+  bool steers_itself() const override {
+    if constexpr (detail::has_steers_itself<D>) return distributer_.steers_itself();
+    return false;
+  }
   void finish() override {
     if constexpr (detail::has_finish<D>) distributer_.finish();
   }

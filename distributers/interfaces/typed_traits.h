@@ -89,6 +89,7 @@ JAROL_HOOK(any_message, "(const messages::MessageRef& message)",
 JAROL_HOOK(take_over, "()", d.take_over())
 JAROL_HOOK(ending, "()", d.ending())
 JAROL_HOOK(overrides_end, "() const", static_cast<bool>(std::as_const(d).overrides_end()))
+JAROL_HOOK(steers_itself, "() const", static_cast<bool>(std::as_const(d).steers_itself()))
 JAROL_HOOK(finish, "()", d.finish())
 JAROL_HOOK(non_finite_inputs, "()", static_cast<std::uint64_t>(d.non_finite_inputs()))
 JAROL_HOOK(listen_at, "(const std::string& address)", d.listen_at(std::declval<const std::string&>()))

@@ -95,7 +95,7 @@ imc::EntityState LauvOperator::state_of(std::uint8_t entity) const {
   if (entity == supervisor_entity && alarm_ != tasks::Alarm::none) {
     state.state = State::FAILURE;
     state.description = name_of(alarm_);
-  } else if (entity == supervisor_entity && fins_ == tasks::FinCheck::unchecked) {
+  } else if (entity == supervisor_entity && fins_ != tasks::FinCheck::checked) {
     state.state = State::FAULT;
     state.description = meaning_of(fins_);
   } else if (entity == operator_entity && mode_ == Mode::error) {
@@ -228,10 +228,14 @@ void LauvOperator::send_report(const tasks::VehicleReport& report, messages::Rec
 
 // Once when it begins and once when it is over.
 void LauvOperator::note_fins(tasks::FinCheck fins) {
-  if (std::exchange(fins_, fins) == fins) return;
-  const bool checked = fins == tasks::FinCheck::checked;
-  log(checked ? imc::LogBookEntry::Type::INFO : imc::LogBookEntry::Type::WARNING,
-      checked ? "fins are checked again, as their servos report" : std::string(meaning_of(fins)));
+  const tasks::FinCheck before = std::exchange(fins_, fins);
+  if (before == fins) return;
+  if (fins != tasks::FinCheck::checked)
+    log(imc::LogBookEntry::Type::WARNING, std::string(meaning_of(fins)));
+  else if (before == tasks::FinCheck::unchecked)
+    log(imc::LogBookEntry::Type::INFO, "fins are checked again, as their servos report");
+  else
+    log(imc::LogBookEntry::Type::INFO, "all fins follow again");
   answer(state_of(supervisor_entity), supervisor_entity);
 }
 

@@ -122,6 +122,8 @@ class LauvVehicle {
   void announce(Duration instant, messages::Receiver& all);
   void listen_at(const std::string& address) { address_ = address; }
   void peer_changed();
+  /// Or may, as it has not said yet.
+  bool steers_itself() const;
   std::uint64_t non_finite_inputs() const { return non_finite_inputs_; }
   /// Without what concerns a link to elsewhere.
   void serialize(Archive& archive) {
@@ -165,7 +167,6 @@ class LauvVehicle {
   void note(tasks::VectorReading tasks::Instruments::*reading, const LauvInstrument& instrument,
             const messages::MessageRef& from, double x, double y, double z);
   bool is(const LauvInstrument& instrument, const messages::MessageRef& from);
-  bool steers_itself() const;                             // or may, as it has not said yet
   bool all_finite(std::initializer_list<double> values);  // else that is counted
 
   struct Beacon {

@@ -7,7 +7,7 @@
 
 namespace jarol::distributers {
 
-/// Called by a transport, from whichever of its threads changes the way.
+/// Called by a transport, from whichever of its threads changes the way, and by its link.
 class Holder {
  public:
   virtual ~Holder() = default;
@@ -16,6 +16,8 @@ class Holder {
   virtual void hold(int fd, const std::vector<Address>& peers) = 0;
   /// There is no way any more; the transport closes its descriptor after this.
   virtual void let_go() = 0;
+  /// What is at the other end steers itself from now on, or no longer: meanwhile nothing is to be sent there.
+  virtual void leave_alone(bool steers_itself) = 0;
 };
 
 }  // namespace jarol::distributers

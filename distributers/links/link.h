@@ -43,6 +43,10 @@ class Link {
   }
   /// From the next `connect` on it learns of the way to the peer; it outlives the link. None: null.
   void hold_by(Holder* holder) { transport_->holder = holder; }
+  /// It learns that what is at the other end steers itself, or no longer.
+  void leave_alone(bool steers_itself) {
+    if (transport_->holder != nullptr) transport_->holder->leave_alone(steers_itself);
+  }
 
   /// Has the message sent as a packet soon. One that finds no room is counted and dropped.
   void send(messages::MessageRef message);

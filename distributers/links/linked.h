@@ -57,8 +57,11 @@ class LinkedSystem : public ExternalSystem {
     std::uint32_t peer = 0;
   };
 
+  void tell_guardian();
+
   std::unique_ptr<Link> link_;
   std::unique_ptr<AnyDistributer> distributer_;
+  bool steers_itself_ = false;  // what is at the other end, as the guardian knows
   FromPeer from_peer_;
   ToLink to_link_;
   ToAll to_all_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "graph/math/euler_angles.h"
@@ -151,13 +152,19 @@ bool is_low(const LauvSupervisor::Param& p, const Reading& voltage) {
   return voltage.count > 0 && voltage.value < p.min_voltage;
 }
 
+// The first that is stuck, or silent.
+std::optional<std::size_t> find_failed(const FinCondition& fins) {
+  for (std::size_t i = 0; i < fins.states.size(); ++i)
+    if (fins.states[i] == FinState::stuck || fins.states[i] == FinState::silent) return i;
+  return std::nullopt;
+}
+
 // A battery that is flat stops propeller and servos, so the next reading of its voltage is waited for.
 Alarm find_actuator(const LauvSupervisor::Param& p, const LauvSupervisor::In& in, LauvSupervisor::State& state) {
   constexpr Alarm alarms[] = {Alarm::bottom_fin, Alarm::port_fin, Alarm::starboard_fin, Alarm::top_fin};
   const Reading& voltage = in.instruments.voltage;
   Alarm found = in.fins.propeller == FinState::stuck ? Alarm::propeller : Alarm::none;
-  for (std::size_t i = in.fins.states.size(); p.fins_end_dive && i-- > 0;)
-    if (in.fins.states[i] == FinState::stuck || in.fins.states[i] == FinState::silent) found = alarms[i];
+  if (const auto fin = find_failed(in.fins); fin && p.fins_end_dive) found = alarms[*fin];
   if (found == Alarm::none) {
     state.voltages_before_failure = voltage.count;
     return found;
@@ -170,7 +177,11 @@ FinCheck check_fins(const LauvSupervisor::Param& p, const FinCondition& fins, do
   const bool none =
       std::all_of(fins.states.begin(), fins.states.end(), [](FinState fin) { return fin == FinState::unknown; });
   state.servos_silent_for = none && state.heard ? state.servos_silent_for + dt : 0;
-  return state.servos_silent_for > p.sensor_timeout ? FinCheck::unchecked : FinCheck::checked;
+  if (state.servos_silent_for > p.sensor_timeout) return FinCheck::unchecked;
+  constexpr FinCheck failed[] = {FinCheck::bottom_failed, FinCheck::port_failed, FinCheck::starboard_failed,
+                                 FinCheck::top_failed};
+  const auto fin = p.fins_end_dive ? std::nullopt : find_failed(fins);
+  return fin ? failed[*fin] : FinCheck::checked;
 }
 
 double calc_heave(const Instruments& i) {

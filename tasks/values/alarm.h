@@ -71,13 +71,19 @@ constexpr auto enumerators(Alarm) {
        {"leak3", leak3, "it comes up, as there is water at the fourth leak sensor, or that is silent"}}};
 }
 
-/// Whether anything finds a fin that sticks.
-enum class FinCheck : std::uint8_t { checked, unchecked };
+/// Whether anything finds a fin that sticks, and which one it goes on without.
+enum class FinCheck : std::uint8_t { checked, unchecked, bottom_failed, port_failed, starboard_failed, top_failed };
 
 constexpr auto enumerators(FinCheck) {
-  return std::array<Enumerator<FinCheck>, 2>{
-      {{"checked", FinCheck::checked},
-       {"unchecked", FinCheck::unchecked, "no fin is checked, as no servo reports where it is"}}};
+  using enum FinCheck;
+  return std::array<Enumerator<FinCheck>, 6>{
+      {{"checked", checked},
+       {"unchecked", unchecked, "no fin is checked, as no servo reports where it is"},
+       {"bottom_failed", bottom_failed, "it goes on without the bottom rudder, which is stuck or its servo silent"},
+       {"port_failed", port_failed, "it goes on without the port elevator, which is stuck or its servo silent"},
+       {"starboard_failed", starboard_failed,
+        "it goes on without the starboard elevator, which is stuck or its servo silent"},
+       {"top_failed", top_failed, "it goes on without the top rudder, which is stuck or its servo silent"}}};
 }
 
 struct Condition {

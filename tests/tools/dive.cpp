@@ -38,10 +38,11 @@ class Alarms : public RecordSink {
   Alarms(std::uint32_t output, Dive& to) : output_(output), to_(to) {}
   void take(Duration instant, std::uint32_t output, const void* value) override {
     if (output != output_) return;
-    const auto alarm = static_cast<const tasks::Condition*>(value)->alarm;
+    const auto [alarm, fins] = *static_cast<const tasks::Condition*>(value);
     if (to_.alarm == tasks::Alarm::none && alarm != tasks::Alarm::none)
       to_.alarmed_at = 1e-9 * static_cast<double>(instant.count());
     to_.alarm = alarm;
+    to_.fins = fins;
   }
   void finish() override {}
 

@@ -21,6 +21,7 @@ struct Dive {
   Report report;
   tasks::Alarm alarm = tasks::Alarm::none;  // told last
   double alarmed_at = 0;
+  tasks::FinCheck fins = tasks::FinCheck::checked;  // likewise
 };
 
 /// Runs "file" or "file:profile" with these overrides, "path=value", to the end of its mission or until `end`.

@@ -81,6 +81,11 @@ void GuardedVehicle::listen() {
   imc::EstimatedState state;
   state.phi = leans ? 1 : 0;
   end_->send(helicopter_ ? messages::refer_to(data) : messages::refer_to(state));
+  if (steers_itself) {
+    imc::VehicleState its;
+    its.control_loops = *steers_itself ? imc::CLoopsMask::DEPTH | imc::CLoopsMask::YAW : 0;
+    end_->send(messages::refer_to(its));
+  }
   end_->flush();
 }
 

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,10 +45,11 @@ class GuardedVehicle : public messages::Receiver {
   /// Packets that came and were not right: by checksum, sender, or order of their times.
   std::uint64_t flawed() const;
 
-  bool leans = false;              // as it says
-  Clock::time_point steered_at{};  // when the last command came that was not `safe`
-  Clock::time_point rested_at{};   // when all of `safe` had come after it, for the first time
-  std::uint64_t packets = 0;       // that came
+  bool leans = false;                 // as it says
+  std::optional<bool> steers_itself;  // as a submarine says; none: it says nothing of that
+  Clock::time_point steered_at{};     // when the last command came that was not `safe`
+  Clock::time_point rested_at{};      // when all of `safe` had come after it, for the first time
+  std::uint64_t packets = 0;          // that came
 
  private:
   static void pause();

@@ -153,6 +153,38 @@ TEST_SUITE("tools/guardian") {
     try_all(cases, {ways[0], ways[5]});
   }
 
+  TEST_CASE("a submarine that steers itself when its controller is killed is left alone; given back it gets safe") {
+    const command::TemporaryFolder folder;
+    prctl(PR_SET_CHILD_SUBREAPER, 1);
+    for (const bool given_back : {false, true}) {
+      CAPTURE(given_back);
+      GuardedVehicle vehicle("udp", false);
+      vehicle.steers_itself = false;
+      Process run(tests::guarded_run(folder, vehicle, "table", "none"));
+      pid_t guardian = 0;
+      REQUIRE(vehicle.listen_until([&] {
+        guardian = tests::find_guardian(run.id());
+        return vehicle.is_steered() && guardian != 0;
+      }));
+      vehicle.steers_itself = true;
+      REQUIRE(vehicle.listen_until([&] { return GuardedVehicle::Clock::now() - vehicle.steered_at > 200ms; }));
+      if (given_back) {
+        vehicle.steers_itself = false;
+        REQUIRE(vehicle.listen_until([&] { return GuardedVehicle::Clock::now() - vehicle.steered_at < 20ms; }));
+      }
+      const std::uint64_t packets = vehicle.packets;
+      run.signal(SIGKILL);
+      CHECK(run.end() == -SIGKILL);
+      CHECK(end_of(guardian) == 1);
+      const bool rests = vehicle.listen_until([&] { return vehicle.is_at_rest(); }, 300ms);
+      CHECK(rests == given_back);
+      CHECK((vehicle.packets == packets) == !given_back);
+      const std::string sent = given_back ? "sent 'safe': 25 packets over udp " : "sent 'safe': 0 packets over udp ";
+      CHECK(run.errors().find(sent) != std::string::npos);
+      CHECK((run.errors().find(", where the vehicle steers itself\n") != std::string::npos) == !given_back);
+    }
+  }
+
   TEST_CASE("without a guardian a crash leaves the last command in force, and nobody says otherwise") {
     const command::TemporaryFolder folder;
     GuardedVehicle vehicle("udp", true);

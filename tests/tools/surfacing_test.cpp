@@ -222,6 +222,7 @@ TEST_SUITE("tools/surfacing") {
       check_surfaces(dive("specs/exolauv.yaml", {stuck}, 0, 140s), Alarm::top_fin, alarm_by);
       const Dive on = dive("specs/exolauv.yaml", {stuck, "tasks.supervisor.parameters.fins_end_dive=false"});
       CHECK(on.alarm == Alarm::none);
+      CHECK(on.fins == tasks::FinCheck::top_failed);
       const tasks::Motion& end = on.samples.back().motion;
       CHECK(end.psi == doctest::Approx(std::numbers::pi / 2).scale(0).epsilon(0.01));
       CHECK(end.z == doctest::Approx(3).scale(0).epsilon(0.02));

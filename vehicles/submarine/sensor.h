@@ -19,8 +19,8 @@ class Sensor {
   /// Throws InputError unless period and delay are multiples of the vehicle's step of 10 ms.
   template <class Kind>
   Sensor(const SensorOf<Kind>& parameters, const std::string& name, std::uint64_t seed, std::size_t width = 1)
-      : Sensor({parameters.noise, parameters.bias, parameters.resolution, parameters.failure}, parameters.period,
-               parameters.delay, name, seed, width) {}
+      : Sensor({parameters.noise, parameters.bias, parameters.drift, parameters.resolution, parameters.failure},
+               parameters.period, parameters.delay, name, seed, width) {}
 
   /// At a step of the vehicle, each once; without truth there is nothing to measure.
   void step(std::int64_t step, const std::optional<Values>& truth);
@@ -35,7 +35,7 @@ class Sensor {
 
  private:
   struct Errors {
-    double noise = 0.0, bias = 0.0, resolution = 0.0;
+    double noise = 0.0, bias = 0.0, drift = 0.0, resolution = 0.0;
     SensorFailure failure;
   };
   struct Reading {
@@ -47,11 +47,15 @@ class Sensor {
   Sensor(const Errors& errors, Duration period, Duration delay, const std::string& name, std::uint64_t seed,
          std::size_t width);
   void measure(const Values& truth, const FailingSensor::Error& error);
+  void wander(std::int64_t step);
 
   Errors errors_;
   std::int64_t period_ = 1, delay_ = 0;  // steps
   std::size_t width_ = 1;
   Noise noise_;
+  Noise drift_noise_;
+  Values wandered_{};             // of the bias, so far
+  std::int64_t wandered_to_ = 0;  // step
   FailingSensor failing_;
   std::optional<Values> measured_;
   std::vector<Reading> pending_;  // a ring: those not reported yet

@@ -8,11 +8,13 @@
 
 namespace jarol::vehicles {
 
-/// How a sensor of one kind measures: reading = truth + bias + noise, to the nearest multiple of the resolution.
+/// How a sensor of one kind measures: reading = truth + bias + noise, to the nearest multiple of the resolution. The
+/// bias may drift: a random walk from what it is at first, whose standard deviation grows with the root of time.
 template <class Kind>
 struct SensorOf {
   double noise = 0.0;
   double bias = 0.0;
+  double drift = 0.0;
   double resolution = 0.0;
   Duration period = std::chrono::milliseconds(Kind::milliseconds);
   Duration delay{};
@@ -22,6 +24,7 @@ struct SensorOf {
     using S = SensorOf;
     return describe(field<&S::noise>(Kind::unit, "standard deviation of each reading"),
                     field<&S::bias>(Kind::unit, "added to each reading"),
+                    field<&S::drift>(Kind::unit, "standard deviation by which that has wandered after 100 s"),
                     field<&S::resolution>(Kind::unit, "readings are multiples of this; 0 for any"),
                     field<&S::period>("", "between readings"), field<&S::delay>("", "from measuring to telling"),
                     field<&S::failure>("", "when and how it fails"));

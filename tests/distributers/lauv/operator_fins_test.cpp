@@ -1,4 +1,4 @@
-// What a console is sent while no fin is checked, as it stands in packets.
+// What a console is sent while no fin is checked, or one has failed, as it stands in packets.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -61,6 +61,15 @@ TEST_SUITE("distributers/lauv_operator_fins") {
     CHECK(vehicle.take() == Lines{"1: entry 0 fins are checked again, as their servos report", "2: state 1 active"});
     vehicle.pass(1s, {.fins = FinCheck::unchecked});
     CHECK(vehicle.take() == Lines{"1: entry 1 " + unchecked, "2: state 2 " + unchecked});
+  }
+
+  TEST_CASE("so is a fin that it goes on without, by its name, and that it follows again") {
+    Reporting vehicle;
+    const std::string top = "it goes on without the top rudder, which is stuck or its servo silent";
+    vehicle.pass(2s, {.fins = FinCheck::top_failed});
+    CHECK(vehicle.take() == Lines{"1: entry 1 " + top, "2: state 2 " + top});
+    vehicle.pass(2s, {.fins = FinCheck::checked});
+    CHECK(vehicle.take() == Lines{"1: entry 0 all fins follow again", "2: state 1 active"});
   }
 
   TEST_CASE("whoever asks for states while no fin is checked gets that one; an alarm is before it") {

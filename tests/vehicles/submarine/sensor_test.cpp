@@ -52,6 +52,46 @@ TEST_SUITE("vehicles/sensor") {
     CHECK(same(reported(parameters, 8), {none, none, none, 0, none, 2, none, 4}));
   }
 
+  TEST_CASE("a bias that drifts walks at random: its deviation is as stated after 100 s, half of that after 25 s") {
+    constexpr int sensors = 2000;
+    const auto deviation_after = [](int seconds) {
+      double sum = 0, squares = 0;
+      for (int seed = 0; seed < sensors; ++seed) {
+        Parameters parameters;
+        parameters.period = 1s;
+        parameters.drift = 0.2;
+        Sensor sensor(parameters, "depth", static_cast<std::uint64_t>(seed));
+        for (int second = 0; second <= seconds; ++second) sensor.step(100 * second, Sensor::Values{5});
+        sum += sensor.value() - 5;
+        squares += (sensor.value() - 5) * (sensor.value() - 5);
+      }
+      CHECK(std::abs(sum / sensors) < 0.015);
+      return std::sqrt(squares / sensors);
+    };
+    CHECK(deviation_after(100) == doctest::Approx(0.2).epsilon(0.05));
+    CHECK(deviation_after(25) == doctest::Approx(0.1).epsilon(0.05));
+    CHECK(deviation_after(0) == 0);
+  }
+
+  TEST_CASE("it drifts while the sensor reports nothing, too, and leaves the noise as it is") {
+    Parameters parameters = exact(10ms);
+    parameters.noise = 0.1;
+    const std::vector<double> still = reported(parameters, 50, 7);
+    parameters.drift = 2;
+    const std::vector<double> drifts = reported(parameters, 50, 7);
+    parameters.failure = {.kind = FailureKind::lost, .at = 0.1, .lasts = 0.2};
+    const std::vector<double> silent = reported(parameters, 50, 7);
+    parameters.noise = 0;
+    parameters.failure = {};
+    const std::vector<double> alone = reported(parameters, 50, 7);
+    CHECK(std::isnan(silent[20]));
+    for (std::size_t i = 0; i < 50; ++i) {
+      CHECK(drifts[i] - still[i] == doctest::Approx(alone[i] - static_cast<double>(i)).scale(1).epsilon(1e-12));
+      if (i < 10) CHECK(silent[i] == drifts[i]);
+    }
+    CHECK(alone[49] != 49);
+  }
+
   TEST_CASE("a bias is added, and readings are multiples of the resolution") {
     Parameters parameters = exact(10ms);
     parameters.bias = 0.3;
