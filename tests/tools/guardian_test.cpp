@@ -167,7 +167,7 @@ TEST_SUITE("tools/guardian") {
         return vehicle.is_steered() && guardian != 0;
       }));
       vehicle.steers_itself = true;
-      REQUIRE(vehicle.listen_until([&] { return GuardedVehicle::Clock::now() - vehicle.steered_at > 200ms; }));
+      REQUIRE(vehicle.listen_until([&] { return GuardedVehicle::Clock::now() - vehicle.steered_at > 500ms; }));
       if (given_back) {
         vehicle.steers_itself = false;
         REQUIRE(vehicle.listen_until([&] { return GuardedVehicle::Clock::now() - vehicle.steered_at < 20ms; }));
