@@ -37,7 +37,8 @@ class Watched : public vehicles::Helicopter {
                          .roll = std::atan2(m.R_nb[2][1], m.R_nb[2][2]),
                          .pitch = -std::asin(m.R_nb[2][0]),
                          .yaw = std::atan2(m.R_nb[1][0], m.R_nb[0][0]),
-                         .climb = -vehicles::to_ned(m.R_nb, m.v_b)[2]});
+                         .climb = -vehicles::to_ned(m.R_nb, m.v_b)[2],
+                         .impact = static_cast<const vehicles::HelicopterTruth*>(true_values())->impact});
   }
 
   int steps_ = 0;

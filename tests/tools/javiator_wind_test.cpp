@@ -1,0 +1,211 @@
+// The helicopter in wind: which failures it survives there, and how well it holds its place.
+#include <doctest/doctest.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/how_many.h"
+#include "tests/tools/flight.h"
+
+namespace {
+using namespace jarol;
+using tasks::FlightState;
+using tasks::LandingCause;
+using tests::Flight;
+using tests::Glimpse;
+using Settings = std::vector<std::string>;
+
+const std::string robostix = "distributers.robostix.link.parameters.";
+
+Settings wind_of(double speed, double gusts) {
+  return {robostix + "dynamics=rigid", fmt::format("{}air.north={} m/s", robostix, speed),
+          fmt::format("{}air.gusts={} m/s", robostix, gusts)};
+}
+
+// In 5 m/s of wind, with gusts of 1 m/s.
+Flight fly_in_wind(const Settings& failure, std::uint64_t seed, double lands_at, double seconds) {
+  Settings set = wind_of(5, 1);
+  set.insert(set.end(), failure.begin(), failure.end());
+  const auto pilot = [lands_at](double time) {
+    tasks::PilotCommand command = tests::hover_command(time);
+    if (time >= lands_at) ++command.state_switches;
+    return command;
+  };
+  return tests::fly({.set = set, .pilot = pilot, .seconds = seconds, .seed = seed});
+}
+
+Settings failing_at(double at, const std::string& sensor, const std::string& kind, double by = 0) {
+  const std::string path = robostix + "failures." + sensor + ".";
+  return {path + "kind=" + kind, fmt::format("{}at={} s", path, at), fmt::format("{}by={}", path, by)};
+}
+
+double distance(const Flight& flight, double from, double to) {
+  double distance = 0;
+  for (const Glimpse& g : flight.path)
+    if (g.time >= from && g.time <= to) distance = std::max(distance, std::hypot(g.x, g.y));
+  return distance;
+}
+
+bool is_upright(const Flight& flight) {
+  return std::abs(flight.path.back().roll) < 0.1 && std::abs(flight.path.back().pitch) < 0.1;
+}
+
+constexpr double never = 1e9;
+}  // namespace
+
+TEST_SUITE("tools/javiator_wind") {
+  TEST_CASE("without an IMU in 5 m/s of wind it lands within 3 s, on its feet but for one of 50, mostly softly") {
+    for (const std::string kind : {"lost", "stuck"}) {
+      CAPTURE(kind);
+      const int flights = tests::how_many(10, 100, 2);
+      int overturned = 0, hard = 0, late = 0;
+      double worst = 0, longest = 0;
+      for (int i = 1; i <= flights; ++i) {
+        CAPTURE(i);
+        const double fails_at = 6 + i % 5;
+        const Flight flight =
+            fly_in_wind(failing_at(fails_at, "imu", kind), static_cast<std::uint64_t>(i), never, fails_at + 5);
+        const double time = flight.settled(&Glimpse::altitude, 0, 0.02) - fails_at;
+        overturned += is_upright(flight) ? 0 : 1;
+        late += time < 3 ? 0 : 1;
+        hard += flight.impact() < 0.5 ? 0 : 1;
+        worst = std::max(worst, flight.impact());
+        longest = std::max(longest, time);
+        CHECK(flight.last().state != FlightState::flying);
+        CHECK(flight.last().cause == LandingCause::imu_lost);
+      }
+      MESSAGE(overturned << " of " << flights << " overturn, " << hard << " meet the ground with 0.5 m/s or more, "
+                         << worst << " m/s at most, after " << longest << " s at most");
+      CHECK(overturned <= flights / 50);
+      CHECK(late <= flights / 50);
+      CHECK(hard <= flights / 4);
+    }
+  }
+
+  TEST_CASE("with a laser stuck in 5 m/s of wind it lands softly, on its feet, near its place") {
+    double worst = 0, furthest = 0;
+    for (const std::string laser : {"laser_north", "laser_east"})
+      for (std::uint64_t seed = 1; seed <= tests::how_many<std::uint64_t>(4, 50, 1); ++seed) {
+        CAPTURE(laser);
+        CAPTURE(seed);
+        const Flight flight = fly_in_wind(failing_at(9, laser, "stuck"), seed, never, 18);
+        worst = std::max(worst, flight.impact());
+        furthest = std::max(furthest, distance(flight, 9, 18));
+        CHECK(flight.last().state == FlightState::ground);
+        CHECK(flight.last().cause == LandingCause::position_lost);
+        CHECK(flight.impact() < 0.5);
+        CHECK(is_upright(flight));
+        CHECK(distance(flight, 9, 18) < 1);
+      }
+    MESSAGE("meets the ground with " << worst << " m/s at most, " << furthest << " m away at most");
+  }
+
+  // gusts push it away where they are more than it may lean against (0.4 rad)
+  TEST_CASE("in 8 m/s of wind with gusts of 2 m/s it comes back to its place whenever it is blown away from it") {
+    const int flights = tests::how_many(6, 50, 2);
+    int far = 0;
+    for (int seed = 1; seed <= flights; ++seed) {
+      CAPTURE(seed);
+      const Flight flight = tests::fly({.set = wind_of(8, 2),
+                                        .pilot = tests::hover_command,
+                                        .seconds = 39,
+                                        .seed = static_cast<std::uint64_t>(seed)});
+      int steps = 0, away = 0, longest = 0, now = 0;
+      for (const Glimpse& g : flight.path) {
+        if (g.time < 9) continue;
+        ++steps;
+        now = std::hypot(g.x, g.y) > 0.5 ? now + 1 : 0;
+        away += now > 0 ? 1 : 0;
+        longest = std::max(longest, now);
+      }
+      MESSAGE(distance(flight, 9, 39) << " m away at most, by more than 0.5 m in " << 100.0 * away / steps
+                                      << " % of the time, for " << 0.005 * longest << " s at a time at most");
+      const bool is_held = flight.last().state == FlightState::flying && distance(flight, 9, 39) < 5.5 &&
+                           away < 0.25 * steps && 0.005 * longest < 6;
+      far += is_held ? 0 : 1;
+    }
+    CHECK(far <= flights / 10);
+  }
+
+  TEST_CASE("it lands softly in wind whichever sensor is noisy or jumps, and blames no other") {
+    struct Failure {
+      std::string sensor, kind;
+      double by;
+      LandingCause cause;
+    };
+    int flights = 0, wrong = 0;
+    double worst = 0;
+    for (const Failure& f : {Failure{"imu", "noisy", 10, LandingCause::imu_lost},
+                             {"sonar", "noisy", 10, LandingCause::sonar_lost},
+                             {"laser_north", "noisy", 10, LandingCause::position_lost},
+                             {"laser_east", "noisy", 10, LandingCause::position_lost},
+                             {"bmu", "noisy", 10, LandingCause::bmu_lost},
+                             {"imu", "jumping", 0.3, LandingCause::imu_lost},
+                             {"sonar", "jumping", 0.25, LandingCause::sonar_lost},
+                             {"laser_north", "jumping", 1, LandingCause::position_lost},
+                             {"laser_east", "jumping", 1, LandingCause::position_lost},
+                             {"bmu", "jumping", 30, LandingCause::bmu_lost}})
+      for (std::uint64_t seed = 1; seed <= tests::how_many<std::uint64_t>(3, 50, 1); ++seed) {
+        CAPTURE(f.sensor);
+        CAPTURE(f.kind);
+        CAPTURE(seed);
+        const Flight flight = fly_in_wind(failing_at(8, f.sensor, f.kind, f.by), seed, 12, 20);
+        worst = std::max(worst, flight.impact());
+        CHECK(flight.last().state == FlightState::ground);
+        ++flights;
+        wrong += flight.last().cause == f.cause || flight.last().cause == LandingCause::none ? 0 : 1;
+        CHECK(is_upright(flight));
+        CHECK(flight.impact() < 0.5);
+        CHECK(distance(flight, 8, 20) < 1);
+      }
+    MESSAGE("meets the ground with " << worst << " m/s at most, " << wrong << " blame another");
+    CHECK(wrong <= flights / 100);
+  }
+
+  TEST_CASE("10 Pa too much or too little of its pressure are blamed on that, not on its sonar, and it lands softly") {
+    int flights = 0, wrong = 0;
+    for (const bool windy : {false, true})
+      for (const double at : {9.0, 15.0})
+        for (const double by : {10.0, -10.0})
+          for (std::uint64_t seed = 1; seed <= tests::how_many<std::uint64_t>(3, 50, 1); ++seed) {
+            CAPTURE(windy);
+            CAPTURE(at);
+            CAPTURE(by);
+            CAPTURE(seed);
+            Settings set = windy ? wind_of(5, 1) : wind_of(0, 0);
+            const Settings failure = failing_at(at, "bmu", "biased", by);
+            set.insert(set.end(), failure.begin(), failure.end());
+            const Flight flight =
+                tests::fly({.set = set, .pilot = tests::hover_command, .seconds = at + 14, .seed = seed});
+            ++flights;
+            wrong += flight.last().cause == LandingCause::sonar_lost ? 1 : 0;
+            CHECK((flight.last().cause == LandingCause::bmu_lost || flight.last().cause == LandingCause::sonar_lost));
+            CHECK(flight.last().state == FlightState::ground);
+            CHECK(flight.impact() < 0.5);
+          }
+    CHECK(wrong <= flights / 20);
+    CHECK((wrong == 0 || tests::is_full()));
+  }
+
+  TEST_CASE("a payload that drops and a gust of 5 m/s, both by chance, end no flight, nor blow it away") {
+    const std::string payload = "payload={mass: 0.3 kg, at: 8 s, chance: 1}",
+                      gust = "air.gust={east: 5 m/s, down: 1 m/s, time: 2 s, at: 8 s, chance: 1}";
+    for (const std::string& event : {payload, gust})
+      for (std::uint64_t seed = 1; seed <= tests::how_many<std::uint64_t>(4, 50, 1); ++seed) {
+        CAPTURE(event);
+        CAPTURE(seed);
+        const Flight flight = fly_in_wind({robostix + event}, seed, 16, 23);
+        CHECK(flight.furthest(&Glimpse::altitude, 1, 8, 16) < 0.1);
+        CHECK(distance(flight, 8, 16) < 0.3);
+        CHECK(flight.last().state == FlightState::ground);
+        CHECK(flight.last().cause == LandingCause::none);
+        CHECK(is_upright(flight));
+        CHECK(flight.impact() < 0.5);
+      }
+  }
+}
