@@ -57,6 +57,19 @@ TEST_SUITE("distributers/links/ownership") {
     CHECK(report.takeovers[0].at == 4s);
   }
 
+  TEST_CASE("unless it is said otherwise a link is its owner's until it has been silent for 5 s") {
+    Ownership ownership;
+    auto now = Clock::time_point(100s);
+    ownership.begin(now);
+    ownership.heard(at(1), now);
+    now = pass(ownership, now, 4990ms);
+    CHECK_FALSE(ownership.is_silent());
+    CHECK_FALSE(ownership.may_speak(at(2)));
+    now = pass(ownership, now, 10ms);
+    CHECK(ownership.is_silent());
+    CHECK(ownership.may_speak(at(2)));
+  }
+
   TEST_CASE("a halt of this machine is no silence of the owner") {
     Ownership ownership(2s);
     const auto now = Clock::time_point(100s);

@@ -178,13 +178,17 @@ TEST_SUITE("distributers/links/strangers") {
     system.begin();
     const Address to = any.with_port(at.port());
     const Speaker pilot(to, SOCK_DGRAM), stray(to, SOCK_DGRAM);
-    const auto command = [](int altitude) {
-      javiator::CommandData data;
-      data.z = static_cast<std::int16_t>(altitude);
+    const auto packet = [](const auto& message) {
       const javiator::Header header;
       std::vector<std::byte> bytes;
-      REQUIRE(write_packet(messages::refer_to(header), messages::refer_to(data), javiator::message_set().order, bytes));
+      REQUIRE(
+          write_packet(messages::refer_to(header), messages::refer_to(message), javiator::message_set().order, bytes));
       return bytes;
+    };
+    const auto command = [&](int altitude) {
+      javiator::CommandData data;
+      data.z = static_cast<std::int16_t>(altitude);
+      return packet(data);
     };
     const auto count = [&](const std::string& name) {
       const LinkReport report = *system.link_report();
@@ -196,14 +200,29 @@ TEST_SUITE("distributers/links/strangers") {
     pilot.say(command(1));  // its own hello
     REQUIRE(wait_for([&] { return count("packets in") == 1; }));
     system.reach(15ms);
+    std::uint64_t heard = 1, dropped = 0;
+    const auto say = [&](const Speaker& speaker, const std::vector<std::byte>& bytes) {
+      speaker.say(bytes);
+      ++(&speaker == &pilot ? heard : dropped);
+      REQUIRE(wait_for([&] { return count("packets in") == heard && count("dropped: stranger") == dropped; }));
+    };
     for (int i = 1; i <= 3; ++i) {
-      stray.say(command(7));
-      REQUIRE(wait_for([&] { return count("dropped: stranger") == static_cast<std::uint64_t>(i); }));
-      pilot.say(command(1000 * i));
-      REQUIRE(wait_for([&] { return count("packets in") == static_cast<std::uint64_t>(i) + 1; }));
+      say(stray, command(7));
+      say(pilot, command(1000 * i));
       system.reach(15ms * (i + 1));
       system.take(0, &pilot_command);
       CHECK(pilot_command.altitude == doctest::Approx(i));
+    }
+    // the hello that the JAviator's terminal sends, and then the pilot's key
+    for (unsigned i = 1; i <= 3; ++i) {
+      say(stray, packet(javiator::SwitchState{}));
+      system.reach(15ms * (2 * i + 3));
+      system.take(0, &pilot_command);
+      CHECK(pilot_command.state_switches == i - 1);
+      say(pilot, packet(javiator::SwitchState{}));
+      system.reach(15ms * (2 * i + 4));
+      system.take(0, &pilot_command);
+      CHECK(pilot_command.state_switches == i);
     }
     system.finish();
   }

@@ -3,9 +3,12 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -19,9 +22,11 @@ struct Gusts {
   std::vector<double> along, across, down;
 };
 
-Gusts blow(std::size_t samples) {
+// Along and across the mean wind.
+Gusts blow(std::size_t samples, double north, double east) {
   AirParameters air;
-  air.north = 3;
+  air.north = north;
+  air.east = east;
   air.gusts = sigma;
   air.gust_time = T;
   air.dryden = true;
@@ -30,8 +35,9 @@ Gusts blow(std::size_t samples) {
   for (std::size_t i = 0; i < samples; ++i) {
     wind.step(dt);
     const fossen::Vector3 now = wind.now(1);
-    gusts.along.push_back(now[0] - 3);
-    gusts.across.push_back(now[1]);
+    const double speed = std::hypot(north, east);
+    gusts.along.push_back((north * now[0] + east * now[1]) / speed - speed);
+    gusts.across.push_back((north * now[1] - east * now[0]) / speed);
     gusts.down.push_back(now[2]);
   }
   return gusts;
@@ -79,24 +85,60 @@ TEST_SUITE("vehicles/wind") {
     CHECK(wind.now(10)[1] == 0);
   }
 
-  TEST_CASE("gusts of Dryden's model have the deviation that is asked for") {
-    const Gusts gusts = blow(1'000'000);
-    for (const auto* axis : {&gusts.along, &gusts.across, &gusts.down})
-      CHECK(std::sqrt(mean_square(*axis)) == doctest::Approx(sigma).scale(0).epsilon(0.03));
+  TEST_CASE("gusts of Dryden's model have the deviation that is asked for, wherever the wind blows") {
+    for (const auto& [north, east] : {std::pair{3.0, 0.0}, {0.0, 3.0}, {-2.0, 2.0}}) {
+      CAPTURE(north);
+      CAPTURE(east);
+      const Gusts gusts = blow(1'000'000, north, east);
+      for (const auto* axis : {&gusts.along, &gusts.across, &gusts.down})
+        CHECK(std::sqrt(mean_square(*axis)) == doctest::Approx(sigma).scale(0).epsilon(0.03));
+    }
   }
 
   TEST_CASE("and its spectra: of first order along the wind, of second order with a zero across it and vertically") {
-    const Gusts gusts = blow(1'000'000);
-    constexpr std::size_t length = 2500;  // 50 s
-    for (const std::size_t bin : {3, 8, 16, 40}) {
-      CAPTURE(bin);
-      const double wT = 2 * std::numbers::pi * static_cast<double>(bin) / (length * dt) * T, square = wT * wT;
-      const double first = 2 * sigma * sigma * T / (1 + square);
-      const double second = sigma * sigma * T * (1 + 3 * square) / ((1 + square) * (1 + square));
-      // 400 segments: 5 % of standard error
-      CHECK(density(gusts.along, length, bin) == doctest::Approx(first).scale(0).epsilon(0.2));
-      CHECK(density(gusts.across, length, bin) == doctest::Approx(second).scale(0).epsilon(0.2));
-      CHECK(density(gusts.down, length, bin) == doctest::Approx(second).scale(0).epsilon(0.2));
+    for (const auto& [north, east] : {std::pair{3.0, 0.0}, {0.0, 3.0}, {-2.0, 2.0}}) {
+      CAPTURE(north);
+      CAPTURE(east);
+      const Gusts gusts = blow(1'000'000, north, east);
+      constexpr std::size_t length = 2500;  // 50 s
+      for (const std::size_t bin : {3, 8, 16, 40}) {
+        CAPTURE(bin);
+        const double wT = 2 * std::numbers::pi * static_cast<double>(bin) / (length * dt) * T, square = wT * wT;
+        const double first = 2 * sigma * sigma * T / (1 + square);
+        const double second = sigma * sigma * T * (1 + 3 * square) / ((1 + square) * (1 + square));
+        // 400 segments: 5 % of standard error
+        CHECK(density(gusts.along, length, bin) == doctest::Approx(first).scale(0).epsilon(0.2));
+        CHECK(density(gusts.across, length, bin) == doctest::Approx(second).scale(0).epsilon(0.2));
+        CHECK(density(gusts.down, length, bin) == doctest::Approx(second).scale(0).epsilon(0.2));
+      }
     }
+  }
+
+  TEST_CASE("a gust by chance begins after a time that is drawn at its rate, and not before it may begin") {
+    constexpr int winds = 1000;
+    double sum = 0, squares = 0;
+    for (int seed = 0; seed < winds; ++seed) {
+      AirParameters air;
+      air.gust = {.east = 4, .at = 2, .chance = 0.5, .time = 1};
+      Wind wind(air, static_cast<std::uint64_t>(seed));
+      double begin = 0;
+      while (wind.now(1)[1] == 0 && begin < 100) {
+        wind.step(dt);
+        begin += dt;
+      }
+      CHECK(begin > 2);
+      sum += begin - 2;
+      squares += (begin - 2) * (begin - 2);
+      double greatest = 0;
+      for (double time = 0; time < 1.1; time += dt) {
+        greatest = std::max(greatest, wind.now(1)[1]);
+        wind.step(dt);
+      }
+      CHECK(greatest == doctest::Approx(4).scale(0).epsilon(0.01));
+      CHECK(wind.now(1)[1] == 0);  // it blows once
+    }
+    // an exponential distribution has its mean as deviation
+    CHECK(sum / winds == doctest::Approx(2).scale(0).epsilon(0.1));
+    CHECK(std::sqrt(squares / winds - sum / winds * sum / winds) == doctest::Approx(2).scale(0).epsilon(0.15));
   }
 }

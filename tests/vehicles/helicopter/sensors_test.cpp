@@ -195,17 +195,29 @@ TEST_SUITE("vehicles/helicopter_sensors") {
     CHECK(spread({FailureKind::noisy, 0, 10}) / spread({}) == doctest::Approx(10).scale(0).epsilon(0.1));
   }
 
-  TEST_CASE("biases wander as far in 100 s as they are said to") {
-    double squares = 0;
-    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+  TEST_CASE("biases of every axis wander as far in 100 s as they are said to, each by itself") {
+    constexpr double rate_unit = 8.5 / 32768, force_unit = 9.81 / 4681;
+    double squares[6] = {}, products[6] = {};  // of each with the next
+    constexpr int flights = 400;
+    for (std::uint64_t seed = 0; seed < flights; ++seed) {
       HelicopterParameters parameters;
       parameters.noise.rate_drift = 0.1;
+      parameters.noise.force_drift = 0.5;
       HelicopterSensors sensors(parameters, seed);
       for (int second = 0; second <= 100; ++second) sensors.sample_imu(second * 1000 * ms, level(0, 0, 0));
-      const double p = sensors.answer(0).droll * 8.5 / 32768;
-      squares += p * p / 400;
+      const JaviatorData data = sensors.answer(0);
+      const double biases[6] = {data.droll * rate_unit, data.dpitch * rate_unit, data.dyaw * rate_unit,
+                                data.ddx * force_unit,  data.ddy * force_unit,   data.ddz * force_unit + 9.81};
+      for (std::size_t i = 0; i < 6; ++i) {
+        squares[i] += biases[i] * biases[i] / flights;
+        products[i] += biases[i] * biases[(i + 1) % 6] / flights;
+      }
     }
-    CHECK(std::sqrt(squares) == doctest::Approx(0.1).scale(0).epsilon(0.1));
+    for (std::size_t i = 0; i < 6; ++i) {
+      CAPTURE(i);
+      CHECK(std::sqrt(squares[i]) == doctest::Approx(i < 3 ? 0.1 : 0.5).scale(0).epsilon(0.1));
+      CHECK(std::abs(products[i] / std::sqrt(squares[i] * squares[(i + 1) % 6])) < 0.2);
+    }
   }
 
   TEST_CASE("a helicopter that is driven reports what its sensors measure, in SI units") {
