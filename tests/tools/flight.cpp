@@ -78,6 +78,17 @@ class Keep : public RecordSink {
   std::vector<std::pair<double, T>>& to_;
 };
 
+// As if the processor had been taken from all tasks for so long.
+std::vector<Miss> misses_of(const Graph& graph, double from, double seconds) {
+  constexpr double period = 0.015;  // s
+  std::vector<Miss> misses;
+  const std::int64_t first = std::llround(from / period);
+  for (std::int64_t i = first; i < first + std::llround(seconds / period); ++i)
+    for (std::uint32_t task = 0; task < graph.tasks.size(); ++task)
+      misses.push_back({.activation = i, .task = task, .left_out = 1});
+  return misses;
+}
+
 }  // namespace
 
 Flight fly(const FlightPlan& plan) {
@@ -106,8 +117,12 @@ Flight fly(const FlightPlan& plan) {
   const std::vector<Output> outputs = outputs_of(*loaded.graph);
   Keep directives(outputs, "logic.directive", flight.directives);
   Keep estimates(outputs, "filter.estimate", flight.estimates);
-  Recorder recorder({&directives, &estimates});
-  Executor executor(*loaded.graph, std::move(systems), {.digest = true, .recorder = &recorder});
+  Keep motors(outputs, "mixer.motors", flight.motors);
+  Recorder recorder({&directives, &estimates, &motors});
+  const std::vector<Miss> pause = misses_of(*loaded.graph, plan.still_at, plan.still_for);
+  ExecutorOptions options{.digest = true, .recorder = &recorder};
+  if (!pause.empty()) options.misses = pause;
+  Executor executor(*loaded.graph, std::move(systems), options);
   executor.run_until(end);
   recorder.close();
   flight.report = executor.report();

@@ -7,6 +7,7 @@
 
 #include "runtime/execute/executor.h"
 #include "tasks/values/javiator.h"
+#include "tasks/values/robostix.h"
 #include "vehicles/helicopter/body.h"
 
 namespace jarol::tests {
@@ -24,6 +25,7 @@ struct Flight {
   std::vector<Glimpse> path;
   std::vector<std::pair<double, tasks::FlightDirective>> directives;
   std::vector<std::pair<double, tasks::FlightEstimate>> estimates;  // what its own filter takes for true
+  std::vector<std::pair<double, tasks::MotorCommand>> motors;
   Report report;
 
   /// The greatest |value - of| within [from, to].
@@ -49,6 +51,8 @@ struct FlightPlan {
   std::function<tasks::PilotCommand(double)> pilot{};
   double seconds = 20;
   std::uint64_t seed = 0;
+  /// From when on, and for how long, no task of its controller runs; s.
+  double still_at = 0, still_for = 0;
 };
 
 Flight fly(const FlightPlan& plan);

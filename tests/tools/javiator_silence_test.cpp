@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
+
+#include "tests/how_many.h"
 #include "tests/tools/flight.h"
 
 namespace {
@@ -52,5 +56,33 @@ TEST_SUITE("tools/javiator_silence") {
       CHECK(directive_at(flight, before_its_key).cause == tasks::LandingCause::answers_late);
       CHECK(flight.touch_down() < 0.5);
     }
+  }
+
+  TEST_CASE("its controller stands still for up to a second in hover: it flies on, and never blames its IMU") {
+    const std::string robostix = "distributers.robostix.link.parameters.";
+    int flights = 0, landings = 0;
+    for (const std::string wind : {"0 m/s", "5 m/s"})
+      for (const double pause : {0.4, 0.6, 0.8, 1.0})
+        for (std::uint64_t seed = 1; seed <= tests::how_many<std::uint64_t>(4, 50, 1); ++seed) {
+          CAPTURE(wind);
+          CAPTURE(pause);
+          CAPTURE(seed);
+          const Flight flight = tests::fly({.set = {robostix + "dynamics=rigid", robostix + "air.north=" + wind},
+                                            .pilot = tests::hover_command,
+                                            .seconds = 20,
+                                            .seed = seed,
+                                            .still_at = 9,
+                                            .still_for = pause});
+          ++flights;
+          landings += flight.last().state == FlightState::flying ? 0 : 1;
+          CHECK(std::ranges::none_of(
+              flight.motors, [&](const auto& each) { return each.first > 9 && each.first < 9 + pause - 0.015; }));
+          CHECK(flight.last().cause != tasks::LandingCause::imu_lost);
+          CHECK(flight.furthest(&Glimpse::x, 0, 9, 20) < 2.5);
+          CHECK(flight.furthest(&Glimpse::altitude, 1, 9, 10) < 0.5);
+          CHECK(flight.impact() < 0.5);
+        }
+    MESSAGE(landings << " of " << flights << " land");
+    CHECK(landings <= flights / 33);  // at another height than was foreseen some blame their sonar
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
 
 #include "tests/how_many.h"
 #include "tests/tools/flight.h"
@@ -176,6 +177,41 @@ TEST_SUITE("tools/javiator") {
       CHECK(flight.touch_down() < 0.5);
       CHECK(flight.last().cause == tasks::LandingCause::none);
     }
+  }
+
+  TEST_CASE("a range that is wrong by just less than it may jump changes the signals of hover by less than 40 %") {
+    const std::string robostix = "distributers.robostix.link.parameters.", sonar = robostix + "failures.sonar.";
+    double least = 1, most = 1;
+    for (const std::string by : {"0.079", "-0.079"})
+      for (std::uint64_t seed = 1; seed <= tests::how_many<std::uint64_t>(5, 50, 1); ++seed) {
+        CAPTURE(by);
+        CAPTURE(seed);
+        const Flight flight =
+            tests::fly({.set = {robostix + "dynamics=rigid", sonar + "kind=biased", sonar + "by=" + by,
+                                sonar + "at=9 s", sonar + "lasts=0.05 s"},  // one reading
+                        .pilot = tests::hover_command,
+                        .seconds = 14,
+                        .seed = seed});
+        double hover = 0;
+        int periods = 0;
+        for (const auto& [time, motors] : flight.motors) {
+          const double mean = std::accumulate(motors.signals.begin(), motors.signals.end(), 0.0) / 4;
+          if (time < 8) continue;
+          if (time < 9) {
+            hover = (periods * hover + mean) / (periods + 1);
+            ++periods;
+          } else {
+            least = std::min(least, mean / hover);
+            most = std::max(most, mean / hover);
+          }
+        }
+        CHECK(flight.furthest(&Glimpse::altitude, 1, 9, 14) < 0.03);
+        CHECK(flight.last().state == tasks::FlightState::flying);
+      }
+    MESSAGE("signals of " << least << " to " << most << " times those of hover");
+    CHECK(least < 0.9);  // it was heard
+    CHECK(least > 0.6);
+    CHECK(most < 1.4);
   }
 
   TEST_CASE("the V2 flies the same mission, and lands as softly") {

@@ -1,8 +1,11 @@
 // What a mission says that it is to reach: judged as what its graph expects is, wherever that is judged.
 #include <doctest/doctest.h>
 
+#include <filesystem>
+#include <map>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "tests/tools/run_command.h"
 
@@ -27,6 +30,36 @@ std::string expected_lines(const std::string& output) {
 }  // namespace
 
 TEST_SUITE("tools/mission") {
+  TEST_CASE("every shipped mission that expects something reaches it, in the graph that it is for") {
+    const std::string dive =
+                          "specs/exolauv.yaml --set distributers.dune.link.parameters.dynamics=rigid "
+                          "--set distributers.neptus.link.file=missions/",
+                      flight =
+                          "specs/javiator.yaml --set distributers.robostix.link.parameters.dynamics=rigid "
+                          "--set distributers.terminal.link.file=missions/";
+    const std::map<std::string, std::string> runs{{"deep.csv", dive + "deep.csv"},
+                                                  {"dive.csv", dive + "dive.csv"},
+                                                  {"late.csv", dive + "late.csv"},
+                                                  {"hover.csv", flight + "hover.csv"},
+                                                  {"recorded.csv", flight + "recorded.csv --profile original"}};
+    for (const auto& mission : std::filesystem::directory_iterator("specs/missions")) {
+      const std::string name = mission.path().filename();
+      CAPTURE(name);
+      std::vector<std::string> expected;
+      std::istringstream in(command::content(mission.path()));
+      for (std::string line; std::getline(in, line);)
+        if (line.starts_with("expect: ")) expected.push_back(line.substr(8, line.find("  #") - 8));
+      if (expected.empty()) continue;
+      REQUIRE(runs.contains(name));
+      const auto run = run_jarol("run " + runs.at(name), "2>&1");
+      CHECK(run.exit_code == 0);
+      const std::string lines = expected_lines(run.output);
+      CAPTURE(lines);
+      for (const std::string& condition : expected)
+        CHECK(lines.find("  expected    " + condition + ": holds") != std::string::npos);
+    }
+  }
+
   TEST_CASE("a run is judged by its mission first, then by its graph, and a dive that is too short fails") {
     const TemporaryFolder folder;
     const std::string command = "run " + dive_by(folder,

@@ -25,6 +25,12 @@ Titles titles_of(const std::string& svg) {
   return titles;
 }
 
+std::size_t count_in(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++found;
+  return found;
+}
+
 const std::string counting = "run specs/counting.yaml --for 100ms ";
 }  // namespace
 
@@ -80,11 +86,7 @@ TEST_SUITE("tools/run_files") {
     const std::string svg = content(picture);
     CHECK(titles_of(svg) ==
           Titles{"depth", "pitch", "heading", "speed", "alarm", "fins", "to_dune.thruster", "to_dune.fins", "path"});
-    const auto count = [&](const std::string& text) {
-      std::size_t found = 0;
-      for (std::size_t at = 0; (at = svg.find(text, at)) != std::string::npos; ++at) ++found;
-      return found;
-    };
+    const auto count = [&](const std::string& text) { return count_in(svg, text); };
     CHECK(count(">true</text>") == 5);  // all but alarm and fins, and the path
     CHECK(count(">commanded</text>") == 3);
     CHECK(count(">none</text>") == 1);
@@ -92,6 +94,24 @@ TEST_SUITE("tools/run_files") {
     CHECK(count(">profile at_sea, seed 7, expect=nothing</text>") == 1);
     CHECK(run_jarol("replay " + recording + " --plot " + replayed).exit_code == 0);
     CHECK(content(replayed) == svg);
+  }
+
+  TEST_CASE("a picture of a flight shows it likewise: truth, motors, names of states and the path") {
+    const TemporaryFolder folder;
+    const std::string picture = folder / "p.svg";
+    CHECK(run_jarol("run specs/javiator.yaml --set distributers.robostix.link.parameters.dynamics=rigid --plot " +
+                    picture)
+              .exit_code == 0);
+    const std::string svg = content(picture);
+    CHECK(titles_of(svg) == Titles{"roll", "pitch", "yaw", "altitude", "x", "y", "battery", "state",
+                                   "to_robostix.signals", "to_robostix.unlocked", "to_robostix.number", "path"});
+    CHECK(count_in(svg, ">true</text>") == 7);  // of angles, altitude and place, and the path
+    CHECK(count_in(svg, ">commanded</text>") == 6);
+    for (const std::string motor : {"signals.0", "signals.1", "signals.2", "signals.3"})
+      CHECK(count_in(svg, ">" + motor + "</text>") == 1);
+    for (const std::string state : {"halt", "ground", "starting", "flying", "landing"})
+      CHECK(count_in(svg, ">" + state + "</text>") == 1);
+    CHECK(count_in(svg, ">east [m], north is up</text>") == 1);
   }
 
   TEST_CASE("a trace in words has a row of units, and names what enumerators and truth values mean") {
