@@ -2,9 +2,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstring>
-#include <fstream>
-#include <iterator>
+#include <array>
+#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
@@ -12,8 +11,11 @@
 #include "distributers/interfaces/typed.h"
 #include "distributers/lauv/vehicle.h"
 #include "distributers/messages/packet.h"
+#include "graph/math/geometry.h"
 #include "graph/values/value.h"
+#include "tasks/lauv/fins.h"
 #include "tasks/lauv/supervisor.h"
+#include "tests/tools/recorded_packets.h"
 #include "tools/commands/run/load_graph.h"
 
 namespace {
@@ -21,32 +23,12 @@ using namespace jarol;
 using namespace std::chrono_literals;
 using distributers::LauvVehicle;
 using tasks::Alarm;
+using tasks::FinState;
+using tasks::FinWatch;
 using tasks::Instruments;
 using tasks::LauvSupervisor;
-
-struct Packet {
-  double seconds = 0;  // since the first of the recording
-  std::vector<std::byte> bytes;
-};
-
-// Records of a time, a length and a packet; what was sent before `from`, labels alone, comes then.
-std::vector<Packet> packets_of(const std::string& file, double from = 0) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string all((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  std::vector<Packet> packets;
-  for (std::size_t at = 0; at + 10 <= all.size();) {
-    Packet packet;
-    std::uint16_t length = 0;
-    std::memcpy(&packet.seconds, all.data() + at, 8);
-    std::memcpy(&length, all.data() + at + 8, 2);
-    packet.bytes.resize(length);
-    std::memcpy(packet.bytes.data(), all.data() + at + 10, length);
-    at += 10U + length;
-    packet.seconds = std::max(packet.seconds, from);
-    packets.push_back(std::move(packet));
-  }
-  return packets;
-}
+using test::Packet;
+using test::packets_of;
 
 struct Nowhere : messages::Receiver {
   void receive(messages::MessageRef message) override {
@@ -64,7 +46,21 @@ struct Watched {
     for (const Distributer& d : loaded.graph->distributers)
       if (d.name == "dune") vehicle = *static_cast<const distributers::LauvVehicleParameters*>(d.parameters.data());
     for (const Task& t : loaded.graph->tasks)
-      if (t.name == "supervisor") supervisor = *static_cast<const LauvSupervisor::Param*>(t.parameters.data());
+      if (t.name == "supervisor")
+        supervisor = *static_cast<const LauvSupervisor::Param*>(t.parameters.data());
+      else if (t.name == "fin_watch")
+        fin_watch = *static_cast<const FinWatch::Param*>(t.parameters.data());
+  }
+
+  // What another program sent to propeller and fins, which DUNE sends on to its other peers, as the graph's own: once
+  // all of one actuation has come.
+  void note_command(const messages::MessageRef& message, distributers::Typed<LauvVehicle>& adapter) {
+    if (const auto* thruster = message.as<messages::imc::SetThrusterActuation>()) commanded.thruster = thruster->value;
+    const auto* fin = message.as<messages::imc::SetServoPosition>();
+    if (fin == nullptr) return;
+    commanded.fins.at(fin->id) = fin->value;
+    if (fin->id + 1 == static_cast<int>(commanded.fins.size()))
+      adapter.hand_over<&LauvVehicle::Out::actuation>(commanded, system);
   }
 
   void run(const std::vector<Packet>& packets) {
@@ -73,6 +69,9 @@ struct Watched {
     LauvSupervisor::State state;
     LauvSupervisor::In in;
     LauvSupervisor::Out out;
+    FinWatch::State fin_state;
+    FinWatch::In fins_in;
+    FinWatch::Out fins_out;
     std::size_t next = 0;
     const double begin = packets.front().seconds, end = packets.back().seconds;
     for (std::int64_t k = 0; begin + 0.05 * static_cast<double>(k) <= end; ++k) {
@@ -80,10 +79,17 @@ struct Watched {
       for (; next < packets.size() && packets[next].seconds <= now; ++next) {
         REQUIRE(reader.read(packets[next].bytes) == messages::PacketError::none);
         adapter.receive(reader.message());
+        note_command(reader.message(), adapter);
       }
       adapter.reach(50ms * k, system);
       adapter.take<&LauvVehicle::In::instruments>(in.instruments);
-      LauvSupervisor::run(supervisor, Tick{50ms * k, k, 50ms}, in, state, out);
+      adapter.take<&LauvVehicle::In::servos>(fins_in.servos);
+      const Tick tick{50ms * k, k, 50ms};
+      FinWatch::run(fin_watch, tick, fins_in, fin_state, fins_out);
+      in.fins = fins_out.fins;
+      LauvSupervisor::run(supervisor, tick, in, state, out);
+      servos.push_back(fins_in.servos);
+      fins.push_back(in.fins);
       seen.push_back(in.instruments);
       if (out.condition.alarm != Alarm::none && alarms.insert(out.condition.alarm).second) alarmed_at = now;
     }
@@ -91,8 +97,12 @@ struct Watched {
 
   distributers::LauvVehicleParameters vehicle;
   LauvSupervisor::Param supervisor;
+  FinWatch::Param fin_watch;
+  tasks::Actuation commanded;
   Nowhere system;
   std::vector<Instruments> seen;
+  std::vector<tasks::Servos> servos;
+  std::vector<tasks::FinCondition> fins;
   std::set<Alarm> alarms;
   double alarmed_at = 0;
 };
@@ -118,6 +128,35 @@ TEST_SUITE("tools/dune_recordings") {
     CHECK(last.hull_temperature.count == -1);
     CHECK(last.voltage.count == -1);
     CHECK(last.current.count == -1);
+  }
+
+  TEST_CASE("in a dive of DUNE its fins and its propeller are checked from begin to end, and each follows") {
+    Watched dive("dune");
+    const auto packets = packets_of("tests/data/dune-dive.packets");
+    dive.run(packets);
+    CHECK(dive.alarms.empty());
+    const tasks::Servos& last = dive.servos.back();
+    for (const auto& servo : last.fins) CHECK(servo.count == 799);
+    CHECK(last.propeller.count == 800);
+    std::array<double, 4> furthest{};
+    double fastest = 0, most_thrust = 0;
+    for (std::size_t k = 0; k < dive.servos.size(); ++k) {
+      CAPTURE(k);
+      for (std::size_t i = 0; i < furthest.size(); ++i) {
+        CHECK(dive.fins[k].states[i] == (k > 0 ? FinState::follows : FinState::unknown));
+        furthest[i] = std::max(furthest[i], std::abs(dive.servos[k].fins[i].angle));
+      }
+      // for 2 s it may steer itself, as it has not said whether it does
+      CHECK(dive.fins[k].propeller == (k > 40 ? FinState::follows : FinState::unknown));
+      fastest = std::max(fastest, dive.servos[k].propeller.speed);
+      most_thrust = std::max(most_thrust, dive.servos[k].propeller.commanded);
+    }
+    // it has gone through all that they can do; the rudders had nothing to do
+    CHECK(furthest[1] == doctest::Approx(25 * degree).scale(0).epsilon(1e-6));
+    CHECK(furthest[2] == furthest[1]);
+    CHECK(furthest[0] < 0.01 * degree);
+    CHECK(fastest == 2459);
+    CHECK(most_thrust == 1);
   }
 
   TEST_CASE("water at both leak sensors is seen within a second, and at no instant missed after that") {
