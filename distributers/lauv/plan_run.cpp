@@ -44,7 +44,6 @@ void PlanRun::end(Outcome outcome, std::string why) {
 void PlanRun::begin_maneuver(std::size_t which, const tasks::Motion& motion, Duration now) {
   at_ = which;
   leg_at_ = 0;
-  left_ = -1;
   maneuver_start_ = now;
   follower_.reset();
   if (maneuver().type == messages::imc::FollowReference::message_id) follower_.emplace(maneuver(), now, plan_.limits);
@@ -55,6 +54,7 @@ void PlanRun::begin_maneuver(std::size_t which, const tasks::Motion& motion, Dur
 void PlanRun::begin_leg(const tasks::Leg& leg) {
   leg_ = leg;
   leg_.number = ++number_;
+  left_ = -1;  // until the vehicle reports of this one
   headway_ = {};
 }
 
@@ -137,7 +137,7 @@ bool PlanRun::follow(const messages::imc::Reference& reference, std::uint16_t so
   return true;
 }
 
-double PlanRun::time_left() const {
+double PlanRun::calc_left(bool of_plan) const {
   if (left_ < 0) return -1;
   double left = left_;
   double x = leg_.north, y = leg_.east;
@@ -156,10 +156,10 @@ double PlanRun::time_left() const {
   std::size_t leg_at = leg_at_ + 1, steps = 0;
   for (std::size_t at = at_; steps <= plan_.maneuvers.size(); ++steps, leg_at = 0) {
     const std::vector<PlannedLeg>& legs = plan_.maneuvers[at].legs;
-    if (legs.empty()) return -1;
+    if (legs.empty()) return of_plan ? -1 : left;
     for (; leg_at < legs.size(); ++leg_at)
       if (!add(legs[leg_at])) return -1;
-    if (!plan_.next[at]) return left;
+    if (!of_plan || !plan_.next[at]) return left;
     at = *plan_.next[at];
   }
   return -1;  // it goes round and round

@@ -45,8 +45,8 @@ class PlanRun {
   bool has_maneuver() const { return at_ < plan_.maneuvers.size(); }
   Duration maneuver_start() const { return maneuver_start_; }
   /// s; negative: without end, or not known
-  double time_left() const;
-  double maneuver_left() const { return left_; }
+  double time_left() const { return calc_left(true); }
+  double maneuver_left() const { return calc_left(false); }
   /// 0 to 1, of maneuvers and legs; negative: not known
   double share_done() const;
   Outcome outcome() const { return outcome_; }
@@ -61,6 +61,7 @@ class PlanRun {
   void next_maneuver(const tasks::Motion& motion, Duration now);
   void end(Outcome outcome, std::string why);
   const PlannedLeg* find_next_leg() const;
+  double calc_left(bool of_plan) const;
 
   HeadwayLimits limits_;
   Plan plan_;
@@ -69,8 +70,8 @@ class PlanRun {
   tasks::Leg leg_;
   std::uint32_t number_ = 0;
   Duration maneuver_start_{};
-  double left_ = -1;
-  Headway headway_;  // on the leg
+  double left_ = -1;  // s, of the leg
+  Headway headway_;   // on the leg
   std::optional<ReferenceFollower> follower_;
   Outcome outcome_ = Outcome::none;
   std::string why_;

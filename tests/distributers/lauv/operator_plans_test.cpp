@@ -1,4 +1,5 @@
 // Maneuvers that a console starts and stops, and its abort.
+// In one file: all cases speak with one vehicle.
 #include <doctest/doctest.h>
 
 #include "distributers/messages/payload.h"
@@ -169,6 +170,60 @@ TEST_SUITE("distributers/lauv_operator_plans") {
     CHECK(p.op_mode() == OpMode::SERVICE);
     CHECK(p.start("") == "");
     CHECK(p.depth() == 3);
+  }
+
+  TEST_CASE("what is known of a stored plan is given: its size, who stored it and when; all are forgotten at once") {
+    using Op = imc::PlanDB::Op;
+    Planner p;
+    // by a system that says who it is
+    const auto ask = [&](std::uint8_t op, const char* name, const messages::InlineMessage& plan = {}) {
+      imc::PlanDB request;
+      request.op = op;
+      request.plan_id = name;
+      request.arg = plan;
+      const imc::Header from{.src = 0x4001};
+      messages::MessageRef message = messages::refer_to(request);
+      message.header = &from;
+      p.adapter.receive(message);
+      p.pass(50ms);
+      const auto reply = p.to.last<imc::PlanDB>();
+      CHECK(reply.op == op);
+      CHECK(reply.type == (reply.info == "" ? imc::PlanDB::Type::SUCCESS : imc::PlanDB::Type::FAILURE));
+      return reply;
+    };
+    const auto opened = [](const messages::InlineMessage& from) {
+      messages::Message to;
+      REQUIRE(messages::take_inline(imc::message_set(), from, to));
+      return to;
+    };
+    CHECK(ask(Op::GET_INFO, "dive").info == "no plan 'dive' is stored here");
+    const auto plan = packed(dive_plan("dive", 3));
+    CHECK(ask(Op::SET, "dive", plan).info == "");
+    CHECK(ask(Op::SET, "deep", packed(dive_plan("deep", 6))).info == "");
+    const auto reply = ask(Op::GET_INFO, "dive");
+    CHECK(reply.info == "");
+    CHECK(reply.plan_id == "dive");
+    const messages::Message given = opened(reply.arg);
+    const auto* information = given.as<imc::PlanDBInformation>();
+    REQUIRE(information != nullptr);
+    CHECK(information->plan_id == "dive");
+    CHECK(information->plan_size == plan.payload.size());
+    CHECK(information->change_sid == 0x4001);
+    CHECK(information->change_time > 1e9);
+
+    CHECK(ask(Op::CLEAR, "").info == "");
+    for (const char* name : {"dive", "deep"}) {
+      CHECK(std::string(ask(Op::GET_INFO, name).info.view()) == std::string("no plan '") + name + "' is stored here");
+      CHECK(p.start(name) == std::string("no plan '") + name + "' is stored here");
+    }
+    const messages::Message counted = opened(ask(Op::GET_STATE, "").arg);
+    const auto* state = counted.as<imc::PlanDBState>();
+    REQUIRE(state != nullptr);
+    CHECK(state->plan_count == 0);
+    CHECK(state->plan_size == 0);
+    CHECK(state->change_sid == 0x4001);
+    CHECK(state->change_time >= information->change_time);
+    CHECK(ask(Op::CLEAR, "").info == "");  // nothing is there
   }
 
   TEST_CASE("a vehicle command executes and stops the same maneuver") {
