@@ -159,6 +159,27 @@ TEST_SUITE("tools/dune_recordings") {
     CHECK(most_thrust == 1);
   }
 
+  TEST_CASE("labels by EntityInfo alone, or by EntityList alone, are as good as both, and nobody is asked for any") {
+    for (const bool by_list : {false, true}) {
+      CAPTURE(by_list);
+      Watched leak("dune");
+      auto packets = packets_of("tests/data/dune-leak.packets", 15);
+      const std::size_t all = packets.size();
+      std::erase_if(packets, [&](const Packet& packet) {
+        messages::PacketReader reader(LauvVehicle::message_set());
+        reader.read(packet.bytes);
+        const auto* list = reader.message().as<messages::imc::EntityList>();
+        return by_list ? reader.message().as<messages::imc::EntityInfo>() != nullptr : list != nullptr;
+      });
+      CHECK(packets.size() < all);
+      leak.run(packets);
+      CHECK(leak.system.asked == 0);
+      CHECK(leak.alarms == std::set<Alarm>{Alarm::leak});
+      CHECK(leak.seen.back().leak.value == 1);
+      CHECK(leak.seen.back().leak1.value == 1);
+    }
+  }
+
   TEST_CASE("water at both leak sensors is seen within a second, and at no instant missed after that") {
     Watched leak("dune");
     const auto packets = packets_of("tests/data/dune-leak.packets", 15);

@@ -30,6 +30,12 @@ struct Named {
     list.list = labels;
     adapter.receive(messages::refer_to(list));
   }
+  void info(std::uint8_t entity, const char* label) {
+    imc::EntityInfo one;
+    one.id = entity;
+    one.label = label;
+    adapter.receive(messages::refer_to(one));
+  }
   void state(std::uint8_t entity, bool failed) {
     imc::EntityState state;
     state.state = failed ? State::FAILURE : State::NORMAL;
@@ -74,6 +80,27 @@ TEST_SUITE("distributers/lauv_hull") {
     CHECK(are(leaks_of(vehicle.instruments()), {{{0, 2}, {1, 1}, {0, -1}, {0, -1}}}));
     vehicle.state(17, false);
     CHECK(vehicle.instruments().leak1.value == 0);
+  }
+
+  TEST_CASE(
+      "labels that come one by one, as each entity says its own, are taken as those of a list, the last one counts") {
+    Named vehicle(of_two());
+    Asked asked;
+    vehicle.info(16, "Leak Simulator");
+    vehicle.info(17, "Leak Sensor - Tail");
+    vehicle.info(18, "Leak Sensor - Nose");
+    vehicle.info(Entities::nobody, "Leak Sensor - Nose");
+    vehicle.state(17, true);
+    vehicle.state(18, false);
+    vehicle.state(18, false);
+    vehicle.state(16, true);
+    CHECK(are(leaks_of(vehicle.instruments()), {{{0, 2}, {1, 1}, {0, -1}, {0, -1}}}));
+    vehicle.adapter.reach(std::chrono::milliseconds(50), asked);
+    CHECK(asked.count == 0);
+    vehicle.info(18, "Leak Sensor - Tail");
+    vehicle.info(17, "Leak Sensor - Nose");
+    vehicle.state(17, true);
+    CHECK(vehicle.instruments().leak.value == 1);
   }
 
   TEST_CASE("unless parameters say which is which each is any whose label begins so: one in FAILURE is a leak") {
