@@ -2,6 +2,7 @@
 // In one file: all cases fly one mission with one console.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -27,7 +28,12 @@ imc::PlanControl start(const char* name, const M& m) {
   return control;
 }
 
-void fly_square(const std::vector<std::string>& set, double settled_after, double widest) {
+std::vector<std::string> current(double north, double east) {
+  const std::string sea = "distributers.dune.link.parameters.sea.current_";
+  return {sea + "north=" + std::to_string(north) + " m/s", sea + "east=" + std::to_string(east) + " m/s"};
+}
+
+void fly_square(const std::vector<std::string>& set, double settled_after, double widest, double widest_turn) {
   Mission mission(set);
   const double corners[][2] = {{60, 0}, {60, 60}, {0, 60}, {0, 0}};
   PlanOf plan("square");
@@ -65,14 +71,132 @@ void fly_square(const std::vector<std::string>& set, double settled_after, doubl
   }
   MESSAGE("out of the square by " << outside << " m, depth within " << depth_error << " m, " << seconds(mission.now())
                                   << " s");
-  CHECK(outside < 2 * widest);
+  CHECK(outside < widest_turn);
   CHECK(depth_error < 0.1);
-  CHECK(std::hypot(mission.truth("x"), mission.truth("y")) < 2 + widest);
+  CHECK(std::hypot(mission.truth("x"), mission.truth("y")) < 3);
+}
+
+// Its station has a radius of 10 m, beyond which it drifts before it comes back.
+void fly_five(const std::vector<std::string>& set, double farthest) {
+  Mission mission(set);
+  imc::Rows rows = maneuver<imc::Rows>(30, 0);
+  rows.length = 40;
+  rows.width = 20;
+  rows.hstep = 20;
+  rows.coff = 5;
+  rows.alternation = 100;
+  rows.flags = imc::Rows::Flags::SQUARE_CURVE | imc::Rows::Flags::CURVE_RIGHT;
+  auto yoyo = maneuver<imc::YoYo>(0, 20);
+  yoyo.z = 4;
+  yoyo.amplitude = 1.5F;
+  yoyo.pitch = static_cast<float>(15 * degree);
+  auto elevator = maneuver<imc::Elevator>(0, 0);
+  elevator.start_z = 2;
+  elevator.end_z = 6;
+  elevator.start_z_units = elevator.end_z_units = imc::ZUnits::DEPTH;
+  elevator.radius = 8;
+  auto station = maneuver<imc::StationKeeping>(0, 0, 0);
+  station.radius = 10;
+  station.duration = 30;
+  mission.say(PlanOf("five")
+                  .then("Goto1", maneuver<imc::Goto>(30, 0))
+                  .then("Rows2", rows)
+                  .then("YoYo3", yoyo)
+                  .then("Elevator4", elevator)
+                  .then("StationKeeping5", station)
+                  .start());
+  std::vector<std::string> flown;
+  std::map<std::string, std::pair<double, double>> depths;  // least and greatest
+  std::map<std::string, std::pair<double, double>> ends;    // true places
+  double progress = 0, rows_east = 0;
+  const bool done = mission.fly(900s, [&] {
+    const auto state = mission.plan();
+    if (mission.is_over() && mission.now() > 1s) return true;
+    const std::string name(state.man_id.view());
+    if (flown.empty() || flown.back() != name) {
+      if (!name.empty()) flown.push_back(name);
+      depths[name] = {1e9, -1e9};
+    }
+    if (name.empty()) return false;
+    ends[name] = {mission.truth("x"), mission.truth("y")};
+    CHECK(name.starts_with(imc::message_set().find(state.man_type, 0)->name));
+    CHECK(state.plan_progress >= static_cast<float>(progress));
+    progress = static_cast<double>(state.plan_progress);
+    const double depth = mission.truth("depth");
+    auto& [min, greatest] = depths[name];
+    if (mission.progress().distance < 45) min = std::min(min, depth), greatest = std::max(greatest, depth);
+    if (name == "Rows2") rows_east = std::max(rows_east, mission.truth("y"));
+    return false;
+  });
+  CHECK(done);
+  CHECK(flown == std::vector<std::string>{"Goto1", "Rows2", "YoYo3", "Elevator4", "StationKeeping5"});
+  CHECK(mission.plan().last_outcome == imc::PlanControlState::LastOutcome::SUCCESS);
+  CHECK(rows_east == doctest::Approx(20).scale(0).epsilon(0.15));
+  CHECK(depths["YoYo3"].first == doctest::Approx(2.5).scale(0).epsilon(0.2));
+  CHECK(depths["YoYo3"].second == doctest::Approx(5.5).scale(0).epsilon(0.1));
+  CHECK(depths["Elevator4"].second == doctest::Approx(6).scale(0).epsilon(0.1));
+  // where it truly was when the next one began: on the line to its place, on its last row, on its circle
+  CHECK(std::abs(ends["Goto1"].second) < 0.1);
+  CHECK(std::abs(ends["Rows2"].second - 20) < 0.1);
+  CHECK(std::abs(ends["YoYo3"].second - 20) < 0.1);
+  CHECK(std::hypot(ends["Elevator4"].first, ends["Elevator4"].second) == doctest::Approx(10).scale(0).epsilon(0.3));
+  CHECK(mission.truth("depth") < 0.2);
+  CHECK(std::hypot(mission.truth("x"), mission.truth("y")) < farthest);
 }
 }  // namespace
 
 TEST_SUITE("tools/dune_plans") {
-  TEST_CASE("on a square of 60 m it is within 1 m of each side from 15 s after a turn began") { fly_square({}, 15, 1); }
+  TEST_CASE("on a square of 60 m it is within 1 m of each side from 15 s after a turn began") {
+    fly_square({}, 15, 1, 2);
+  }
+
+  // which carries it out of its turns
+  TEST_CASE("in a current of 0.3 m/s it is within 0.5 m of each side from 25 s after a turn began") {
+    for (const auto& set : {current(0, 0.3), current(-0.21, 0.21)}) {
+      CAPTURE(set[0]);
+      CAPTURE(set[1]);
+      fly_square(set, 25, 0.5, 4);
+    }
+  }
+
+  TEST_CASE("a path of three points is flown from line to line, and ends at the last") {
+    for (const bool drifts : {false, true}) {
+      CAPTURE(drifts);
+      Mission mission(current(0, drifts ? 0.3 : 0));
+      auto path = maneuver<imc::FollowPath>(0, 0);
+      for (const auto& [x, y, z] : {std::array{60.0F, 0.0F, 0.0F}, {60.0F, 50.0F, 1.0F}, {10.0F, 50.0F, 2.0F}})
+        path.points.push_back(packed(imc::PathPoint{x, y, z}));
+      mission.say(start("path", path));
+      std::vector<std::uint32_t> legs;
+      std::array<double, 3> worst{}, depths{};
+      double since = 0, end = 0;
+      CHECK(mission.fly(300s, [&] {
+        if (mission.is_over() && mission.now() > 1s) return true;
+        const std::uint32_t leg = mission.progress().on_leg;
+        if (leg == 0) return false;
+        if (legs.empty() || legs.back() != leg) legs.push_back(leg), since = 0;
+        since += 0.1;
+        REQUIRE(legs.size() <= 3);
+        const std::size_t k = legs.size() - 1;
+        const double x = mission.truth("x"), y = mission.truth("y");
+        const double off = k == 0 ? y : k == 1 ? x - 60 : y - 50;
+        if (since > (drifts ? 25 : 15)) worst[k] = std::max(worst[k], std::abs(off));
+        depths[k] = mission.truth("depth");
+        end = std::hypot(x - 10, y - 50);
+        return false;
+      }));
+      CHECK(mission.plan().last_outcome == imc::PlanControlState::LastOutcome::SUCCESS);
+      CHECK(legs.size() == 3);
+      for (std::size_t k = 0; k < 3; ++k) {
+        CAPTURE(k);
+        MESSAGE("off its line by " << worst[k] << " m, at its end " << depths[k] << " m deep");
+        CHECK(worst[k] < (drifts ? 0.5 : 1));
+        CHECK(depths[k] == doctest::Approx(3 + static_cast<double>(k)).scale(0).epsilon(0.05));
+      }
+      MESSAGE("ends " << end << " m from its end");
+      CHECK(end < 2.5);
+    }
+  }
 
   TEST_CASE("a loiter holds its radius, both ways round, and ends after its time") {
     for (const std::uint8_t way : {imc::Loiter::Direction::CLOCKW, imc::Loiter::Direction::CCLOCKW}) {
@@ -101,63 +225,15 @@ TEST_SUITE("tools/dune_plans") {
   }
 
   TEST_CASE("a plan of five maneuvers is flown in their order, each reported by its name and type") {
-    Mission mission;
-    imc::Rows rows = maneuver<imc::Rows>(30, 0);
-    rows.length = 40;
-    rows.width = 20;
-    rows.hstep = 20;
-    rows.coff = 5;
-    rows.alternation = 100;
-    rows.flags = imc::Rows::Flags::SQUARE_CURVE | imc::Rows::Flags::CURVE_RIGHT;
-    auto yoyo = maneuver<imc::YoYo>(0, 20);
-    yoyo.z = 4;
-    yoyo.amplitude = 1.5F;
-    yoyo.pitch = static_cast<float>(15 * degree);
-    auto elevator = maneuver<imc::Elevator>(0, 0);
-    elevator.start_z = 2;
-    elevator.end_z = 6;
-    elevator.start_z_units = elevator.end_z_units = imc::ZUnits::DEPTH;
-    elevator.radius = 8;
-    auto station = maneuver<imc::StationKeeping>(0, 0, 0);
-    station.radius = 10;
-    station.duration = 30;
-    mission.say(PlanOf("five")
-                    .then("Goto1", maneuver<imc::Goto>(30, 0))
-                    .then("Rows2", rows)
-                    .then("YoYo3", yoyo)
-                    .then("Elevator4", elevator)
-                    .then("StationKeeping5", station)
-                    .start());
-    std::vector<std::string> flown;
-    std::map<std::string, std::pair<double, double>> depths;  // least and greatest
-    double progress = 0, rows_east = 0;
-    const bool done = mission.fly(900s, [&] {
-      const auto state = mission.plan();
-      if (mission.is_over() && mission.now() > 1s) return true;
-      const std::string name(state.man_id.view());
-      if (flown.empty() || flown.back() != name) {
-        if (!name.empty()) flown.push_back(name);
-        depths[name] = {1e9, -1e9};
-      }
-      if (name.empty()) return false;
-      CHECK(name.starts_with(imc::message_set().find(state.man_type, 0)->name));
-      CHECK(state.plan_progress >= static_cast<float>(progress));
-      progress = static_cast<double>(state.plan_progress);
-      const double depth = mission.truth("depth");
-      auto& [min, greatest] = depths[name];
-      if (mission.progress().distance < 45) min = std::min(min, depth), greatest = std::max(greatest, depth);
-      if (name == "Rows2") rows_east = std::max(rows_east, mission.truth("y"));
-      return false;
-    });
-    CHECK(done);
-    CHECK(flown == std::vector<std::string>{"Goto1", "Rows2", "YoYo3", "Elevator4", "StationKeeping5"});
-    CHECK(mission.plan().last_outcome == imc::PlanControlState::LastOutcome::SUCCESS);
-    CHECK(rows_east == doctest::Approx(20).scale(0).epsilon(0.15));
-    CHECK(depths["YoYo3"].first == doctest::Approx(2.5).scale(0).epsilon(0.2));
-    CHECK(depths["YoYo3"].second == doctest::Approx(5.5).scale(0).epsilon(0.1));
-    CHECK(depths["Elevator4"].second == doctest::Approx(6).scale(0).epsilon(0.1));
-    CHECK(mission.truth("depth") < 0.2);
-    CHECK(std::hypot(mission.truth("x"), mission.truth("y")) < 12);
+    fly_five({}, 12);
+  }
+
+  TEST_CASE("in a current of 0.3 m/s the plan of five maneuvers is flown, too, and each ends where it is to") {
+    for (const auto& set : {current(0, 0.3), current(-0.3, 0)}) {
+      CAPTURE(set[0]);
+      CAPTURE(set[1]);
+      fly_five(set, 15);
+    }
   }
 
   TEST_CASE("it comes up where a pop-up says, stays there for its time or until GPS has found it, dives and goes on") {
