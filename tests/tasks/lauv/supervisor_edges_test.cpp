@@ -52,39 +52,6 @@ int steps_to_alarm(const Change& change, Alarm expected) {
 }  // namespace
 
 TEST_SUITE("tasks/lauv_supervisor/edges") {
-  TEST_CASE("each instrument that reports no more is lost after 2.5 s, under its own name; not fitted: two, at once") {
-    struct Case {
-      std::int64_t& (*count)(Instruments&);
-      Alarm alarm;
-    };
-    const Case cases[] = {{[](Instruments& i) -> std::int64_t& { return i.depth.count; }, Alarm::depth_gauge},
-                          {[](Instruments& i) -> std::int64_t& { return i.pressure.count; }, Alarm::ctd},
-                          {[](Instruments& i) -> std::int64_t& { return i.attitude.count; }, Alarm::attitude},
-                          {[](Instruments& i) -> std::int64_t& { return i.rates.count; }, Alarm::attitude},
-                          {[](Instruments& i) -> std::int64_t& { return i.forces.count; }, Alarm::forces},
-                          {[](Instruments& i) -> std::int64_t& { return i.heading.count; }, Alarm::heading},
-                          {[](Instruments& i) -> std::int64_t& { return i.velocity.count; }, Alarm::speed},
-                          {[](Instruments& i) -> std::int64_t& { return i.rpm.count; }, Alarm::speed},
-                          {[](Instruments& i) -> std::int64_t& { return i.altitude.count; }, Alarm::altimeter},
-                          {[](Instruments& i) -> std::int64_t& { return i.conductivity.count; }, Alarm::ctd},
-                          {[](Instruments& i) -> std::int64_t& { return i.water_temperature.count; }, Alarm::ctd},
-                          {[](Instruments& i) -> std::int64_t& { return i.leak.count; }, Alarm::leak},
-                          {[](Instruments& i) -> std::int64_t& { return i.voltage.count; }, Alarm::battery},
-                          {[](Instruments& i) -> std::int64_t& { return i.current.count; }, Alarm::battery}};
-    for (const Case& c : cases) {
-      const int steps = steps_to_alarm([&](LauvSupervisor::In& in) { c.count(in.instruments) = 20; }, c.alarm);
-      // the sum of 50 steps may lie a rounding above 2.5
-      CHECK((steps == 50 || steps == 51));
-      const bool steered_by_it = &c == &cases[2] || &c == &cases[6];  // attitude, speed log
-      for (const int steps_of_run : {1, 200})
-        CHECK(Watched{}.run(steps_of_run, [&](LauvSupervisor::In& in) { c.count(in.instruments) = -1; }) ==
-              (steered_by_it ? c.alarm : Alarm::none));
-    }
-    Watched blind;
-    const Change no_depth = [](auto& in) { in.instruments.depth.count = in.instruments.pressure.count = -1; };
-    CHECK((blind.run(1, no_depth) == Alarm::depth_gauge && blind.out.setpoint.speed == 0));
-  }
-
   TEST_CASE("GPS is lost after four seconds at the surface, and the surface ends at 15 cm, as far down as GPS works") {
     const auto at = [](double depth) {
       return [depth](LauvSupervisor::In& in) {
