@@ -73,7 +73,7 @@ TEST_SUITE("tools/javiator_goals") {
       CHECK(flight.last().cause == LandingCause::none);
       CHECK(furthest_lean(flight) < 0.45);
       CHECK(flight.at(20).altitude < 0.01);
-      CHECK(flight.touch_down() < 0.5);
+      CHECK(flight.impact() < 0.5);
     }
   }
 
@@ -105,7 +105,7 @@ TEST_SUITE("tools/javiator_goals") {
       CAPTURE(altitude);
       const Flight flight = go_low(altitude, 100);
       CHECK(flight.at(20).altitude < 0.01);
-      CHECK(flight.touch_down() < 0.4);
+      CHECK(flight.impact() < 0.4);
     }
   }
 
@@ -124,7 +124,7 @@ TEST_SUITE("tools/javiator_goals") {
                                  .seconds = 24,
                                  .seed = seed});
       CHECK(flight.last().cause == LandingCause::position_lost);
-      CHECK(flight.touch_down() < 0.45);
+      CHECK(flight.impact() < 0.45);
       CHECK(std::abs(std::remainder(flight.path.back().yaw, 90 * degrees)) < 0.1);
     }
   }

@@ -56,7 +56,7 @@ TEST_SUITE("tools/javiator_ground") {
         CHECK(flight.last().state == tasks::FlightState::flying);
         CHECK(flight.last().stands);
         CHECK(std::abs(flight.path.back().altitude) < 0.002);
-        CHECK(flight.touch_down() < 0.6);
+        CHECK(flight.impact() < 0.6);
         CHECK(lean_of(flight, 14, 24) < 0.02);
         CHECK(way_of(flight, 14, 24) < 0.5);
       }
@@ -93,7 +93,7 @@ TEST_SUITE("tools/javiator_ground") {
           command.yaw = time < 8 ? 0 : time < 12 ? 0.3 : time < 16 ? -0.3 : 0;
         });
         CHECK(way_of(flight, 0, 24) < 0.3);
-        CHECK(flight.touch_down() < 0.5);
+        CHECK(flight.impact() < 0.5);
       }
   }
 
@@ -107,7 +107,7 @@ TEST_SUITE("tools/javiator_ground") {
         CHECK(flight.last().cause == tasks::LandingCause::position_lost);
         CHECK(std::abs(std::remainder(flight.path.back().yaw, 0.5 * std::numbers::pi)) < 0.1);
         CHECK(way_of(flight, 0, 24) < 0.5);
-        CHECK(flight.touch_down() < 0.5);
+        CHECK(flight.impact() < 0.5);
       }
   }
 
@@ -120,7 +120,7 @@ TEST_SUITE("tools/javiator_ground") {
           command.altitude = time > 4 && time < time_back ? 1 : 0;
         });
         CHECK(flight.max(&Glimpse::altitude, 0, 24) > 0.01);
-        CHECK(flight.touch_down() < 0.3);
+        CHECK(flight.impact() < 0.3);
         CHECK(flight.last().stands);
         CHECK(way_of(flight, 0, 24) < 0.1);
       }
@@ -141,7 +141,7 @@ TEST_SUITE("tools/javiator_ground") {
       set.push_back("distributers.terminal.link.file=missions/failing.csv");
       const Flight flight = tests::fly({.set = set, .seconds = 30, .seed = c.seed});
       CHECK(flight.last().state == tasks::FlightState::ground);
-      CHECK(flight.touch_down() < 0.45);
+      CHECK(flight.impact() < 0.5);
     }
   }
 
@@ -153,7 +153,7 @@ TEST_SUITE("tools/javiator_ground") {
       CHECK(flight.at(12.8).altitude > 0.1);
       CHECK(flight.at(12.8).altitude < 0.12);
       CHECK(flight.last().state == tasks::FlightState::ground);
-      CHECK(flight.touch_down() < 0.6);
+      CHECK(flight.impact() < 0.6);
       CHECK(lean_of(flight, 12.8, 24) < 0.3);
     }
   }

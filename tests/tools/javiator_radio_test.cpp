@@ -28,7 +28,7 @@ TEST_SUITE("tools/javiator_radio") {
       CHECK(flight.last().cause == LandingCause::none);
       CHECK(flight.furthest(&Glimpse::yaw, 3, 15, 16) < 0.1);
       CHECK(std::hypot(flight.path.back().x, flight.path.back().y) < 0.3);
-      CHECK(flight.touch_down() < 0.5);
+      CHECK(flight.impact() < 0.5);
     }
   }
 
@@ -59,7 +59,7 @@ TEST_SUITE("tools/javiator_radio") {
       CHECK(flight.last().state == tasks::FlightState::ground);
       CHECK(flight.last().cause == LandingCause::none);
       CHECK(std::hypot(flight.path.back().x, flight.path.back().y) < 0.3);
-      CHECK(flight.touch_down() < 0.5);
+      CHECK(flight.impact() < 0.5);
     }
   }
 }

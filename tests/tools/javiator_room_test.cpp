@@ -105,7 +105,7 @@ TEST_SUITE("tools/javiator_room") {
   TEST_CASE("where a laser sees no wall, the place is lost, and it lands") {
     const Flight flight = hold_at(0, "", {"distributers.robostix.link.parameters.sensors.laser_reach=8.0"});
     CHECK(flight.last().cause == tasks::LandingCause::position_lost);
-    CHECK(flight.touch_down() < 0.5);
+    CHECK(flight.impact() < 0.5);
   }
 
   TEST_CASE("through 180 degrees it turns the short way, to either side, as fast as it is commanded") {
@@ -134,7 +134,7 @@ TEST_SUITE("tools/javiator_room") {
     };
     const Flight flight =
         tests::fly({.set = {imu + "kind=biased", imu + "by=0.3", imu + "at=9s"}, .pilot = pilot, .seconds = 28});
-    CHECK(flight.touch_down() < 0.5);
+    CHECK(flight.impact() < 0.5);
     CHECK(flight.furthest(&Glimpse::altitude, 0, 20, 28) < 0.002);
     CHECK(flight.furthest(&Glimpse::roll, 0, 20, 28) < 0.01);
     for (const auto& [time, directive] : flight.directives) {

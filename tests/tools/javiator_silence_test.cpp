@@ -54,7 +54,7 @@ TEST_SUITE("tools/javiator_silence") {
           tests::fly({.set = {"distributers.robostix.link.parameters.packets=" + packets}, .seconds = before_its_key});
       CHECK(directive_at(flight, before_its_key).state == FlightState::ground);
       CHECK(directive_at(flight, before_its_key).cause == tasks::LandingCause::answers_late);
-      CHECK(flight.touch_down() < 0.5);
+      CHECK(flight.impact() < 0.5);
     }
   }
 
