@@ -41,8 +41,8 @@ void check_safe(const Flight& flight, LandingCause cause, double lean = 0.3) {
   CHECK(flight.max(&Glimpse::altitude, fails_at, 18) < 1.7);
   CHECK(flight.furthest(&Glimpse::x, 0, fails_at, 18) < 1);
   CHECK(flight.furthest(&Glimpse::y, 0, fails_at, 18) < 1);
-  MESSAGE("touches down with " << flight.impact() << " m/s at " << flight.settled(&Glimpse::altitude, 0, 0.01)
-                               << " s, " << std::hypot(flight.path.back().x, flight.path.back().y) << " m away");
+  MESSAGE("touches down with " << flight.impact() << " m/s at " << flight.settled(&Glimpse::altitude, 0, 0.01) << " s, "
+                               << std::hypot(flight.path.back().x, flight.path.back().y) << " m away");
 }
 
 // Hovers until it wants something that a limit forbids.
