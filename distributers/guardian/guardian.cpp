@@ -136,8 +136,8 @@ void Guardian::LinkHolder::hold(int fd, const std::vector<Address>& peers) {
 
 void Guardian::LinkHolder::let_go() { say(guardian_.socket_.get(), {Word::let_go, link_}); }
 
-void Guardian::LinkHolder::leave_alone(bool steers_itself) {
-  say(guardian_.socket_.get(), {steers_itself ? Word::spare : Word::care, link_});
+bool Guardian::LinkHolder::set_steers_itself(bool steers_itself) {
+  return say(guardian_.socket_.get(), {steers_itself ? Word::self_steered : Word::steered, link_});
 }
 
 }  // namespace jarol::distributers

@@ -58,7 +58,7 @@ class Guardian {
     LinkHolder(const Guardian& guardian, std::uint32_t link) : guardian_(guardian), link_(link) {}
     void hold(int fd, const std::vector<Address>& peers) override;
     void let_go() override;
-    void leave_alone(bool steers_itself) override;
+    bool set_steers_itself(bool steers_itself) override;
 
    private:
     const Guardian& guardian_;

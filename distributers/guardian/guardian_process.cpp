@@ -78,7 +78,8 @@ class Watch {
     if (word == Word::packet) wards_[link].add(heard.bytes);
     if (word == Word::key) seal(wards_[link], heard.bytes);
     if (word == Word::let_go) wards_[link].let_go();
-    if (word == Word::spare || word == Word::care) wards_[link].leave_alone(word == Word::spare);
+    if (word == Word::self_steered) wards_[link].set_steers_itself(true);
+    if (word == Word::steered) wards_[link].set_steers_itself(false);
     if (word != Word::hold) return;
     wards_[link].hold(std::move(heard.fd), addresses_in(heard.bytes));
   }

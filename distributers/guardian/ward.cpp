@@ -59,8 +59,8 @@ void Ward::write(std::span<const std::byte> bytes) {
 }
 
 std::string Ward::text() const {
-  return std::to_string(sent_) + (sent_ == 1 ? " packet" : " packets") + " over " + text_ +
-         (steers_itself_ ? ", where the vehicle steers itself" : "");
+  if (steers_itself_) return "none over " + text_ + ", as the vehicle there steers itself";
+  return std::to_string(sent_) + (sent_ == 1 ? " packet" : " packets") + " over " + text_;
 }
 
 }  // namespace jarol::distributers

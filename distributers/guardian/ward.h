@@ -22,7 +22,7 @@ class Ward {
   void seal_with(const GuardianKey& key) { seal_.emplace(key); }
   void hold(Descriptor fd, std::vector<Address> peers);
   void let_go() { fd_.close(); }
-  void leave_alone(bool steers_itself) { steers_itself_ = steers_itself; }
+  void set_steers_itself(bool steers_itself) { steers_itself_ = steers_itself; }
 
   /// All packets once, datagrams to each peer; none to what steers itself. A stream that has no room for them takes
   /// them later.
@@ -30,7 +30,7 @@ class Ward {
   /// What a stream had no room for, as much as there is now; false: nothing is left.
   bool send_rest();
 
-  /// As in "10 packets over udp 127.0.0.1:7002".
+  /// As in "10 packets over udp 127.0.0.1:7002", or "none over udp 127.0.0.1:7002, as the vehicle there steers itself".
   std::string text() const;
 
  private:

@@ -13,17 +13,17 @@
 namespace jarol::distributers {
 
 enum class Word : std::uint32_t {
-  link,     // the next link; bytes: Stamping, then its text
-  packet,   // of a link: one of those that bring its system to rest; bytes: the packet
-  key,      // of a link whose packets are sealed; bytes: GuardianKey
-  ready,    // all that was said is understood: asked by the program, answered by the guardian; bytes: Urgency
-  hold,     // of a link: its way to the peers, a descriptor; bytes: a sockaddr_storage for each
-  let_go,   // of a link: it has no way any more
-  spare,    // of a link: what is there steers itself, so that nothing is sent
-  care,     // of a link: no longer
-  armed,    // from now on the end of the program is a crash, unless it says `closed` before
-  crashed,  // the program is about to end
-  closed,   // the program ends in good order
+  link,          // the next link; bytes: Stamping, then its text
+  packet,        // of a link: one of those that bring its system to rest; bytes: the packet
+  key,           // of a link whose packets are sealed; bytes: GuardianKey
+  ready,         // all that was said is understood: asked by the program, answered by the guardian; bytes: Urgency
+  hold,          // of a link: its way to the peers, a descriptor; bytes: a sockaddr_storage for each
+  let_go,        // of a link: it has no way any more
+  self_steered,  // of a link: what is there steers itself, so that nothing is sent
+  steered,       // of a link: it no longer does
+  armed,         // from now on the end of the program is a crash, unless it says `closed` before
+  crashed,       // the program is about to end
+  closed,        // the program ends in good order
 };
 
 struct Sentence {

@@ -38,8 +38,8 @@ class AnyDistributer : public messages::Receiver {
   /// Then: its operator has demanded a stop, and what it commands counts in place of that. Any thread.
   virtual bool overrides_end() const = 0;
 
-  /// The vehicle's own controllers steer it: meanwhile nobody sends it anything, the guardian of a run that crashed no
-  /// more than the distributer.
+  /// The vehicle's own controllers steer it, or may: it is sent nothing by the distributer, and by no guardian if the
+  /// run crashes meanwhile.
   virtual bool steers_itself() const = 0;
 
   /// The run is over. Throws std::runtime_error if something can't be kept for the next one.

@@ -1,4 +1,5 @@
-// From a distributer of its own type to an AnyDistributer: channels by number, messages by id.
+// From a distributer of its own type to an AnyDistributer: channels by number, messages by id. In one file: it is one
+// class, whose members a distributer may have or not.
 #pragma once
 
 #include <algorithm>

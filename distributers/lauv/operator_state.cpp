@@ -226,7 +226,7 @@ void LauvOperator::send_report(const tasks::VehicleReport& report, messages::Rec
   send_state(motion, system);
 }
 
-// Once when it begins and once when it is over.
+// Once for each change. One that has failed is believed again once its operator has sent a stop.
 void LauvOperator::note_fins(tasks::FinCheck fins) {
   const tasks::FinCheck before = std::exchange(fins_, fins);
   if (before == fins) return;
@@ -235,7 +235,7 @@ void LauvOperator::note_fins(tasks::FinCheck fins) {
   else if (before == tasks::FinCheck::unchecked)
     log(imc::LogBookEntry::Type::INFO, "fins are checked again, as their servos report");
   else
-    log(imc::LogBookEntry::Type::INFO, "all fins follow again");
+    log(imc::LogBookEntry::Type::INFO, "all fins are tried again");
   answer(state_of(supervisor_entity), supervisor_entity);
 }
 

@@ -16,8 +16,9 @@ class Holder {
   virtual void hold(int fd, const std::vector<Address>& peers) = 0;
   /// There is no way any more; the transport closes its descriptor after this.
   virtual void let_go() = 0;
-  /// What is at the other end steers itself from now on, or no longer: meanwhile nothing is to be sent there.
-  virtual void leave_alone(bool steers_itself) = 0;
+  /// What is at the other end steers itself from now on, or no longer: meanwhile nothing is to be sent there. False: it
+  /// could not be told, and has to be again.
+  virtual bool set_steers_itself(bool steers_itself) = 0;
 };
 
 }  // namespace jarol::distributers

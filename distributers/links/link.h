@@ -43,9 +43,9 @@ class Link {
   }
   /// From the next `connect` on it learns of the way to the peer; it outlives the link. None: null.
   void hold_by(Holder* holder) { transport_->holder = holder; }
-  /// It learns that what is at the other end steers itself, or no longer.
-  void leave_alone(bool steers_itself) {
-    if (transport_->holder != nullptr) transport_->holder->leave_alone(steers_itself);
+  /// The holder learns whether what is at the other end steers itself. False: it could not be told.
+  bool set_steers_itself(bool steers_itself) {
+    return transport_->holder == nullptr || transport_->holder->set_steers_itself(steers_itself);
   }
 
   /// Has the message sent as a packet soon. One that finds no room is counted and dropped.

@@ -1,7 +1,6 @@
 #include "distributers/links/linked.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace jarol::distributers {
 
@@ -40,14 +39,14 @@ std::optional<LinkReport> LinkedSystem::link_report() const {
 void LinkedSystem::reach(Duration instant) {
   link_->receive(from_peer_);
   distributer_->reach(instant, to_link_);
-  tell_guardian();
+  report_steering();
   if (link_->announces()) distributer_->announce(instant, to_all_);
   link_->flush();
 }
 
-void LinkedSystem::tell_guardian() {
+void LinkedSystem::report_steering() {
   const bool steers_itself = distributer_->steers_itself();
-  if (std::exchange(steers_itself_, steers_itself) != steers_itself) link_->leave_alone(steers_itself);
+  if (steers_itself != steers_itself_ && link_->set_steers_itself(steers_itself)) steers_itself_ = steers_itself;
 }
 
 void LinkedSystem::hand_over(std::size_t channel, const void* value) {

@@ -57,7 +57,7 @@ class LinkedSystem : public ExternalSystem {
     std::uint32_t peer = 0;
   };
 
-  void tell_guardian();
+  void report_steering();
 
   std::unique_ptr<Link> link_;
   std::unique_ptr<AnyDistributer> distributer_;

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "graph/math/euler_angles.h"
 #include "graph/math/geometry.h"
 #include "graph/math/rotations.h"
 #include "tasks/add_task.h"
+#include "tasks/lauv/actuator_checks.h"
 #include "tasks/lauv/depth_source.h"
 
 namespace jarol::tasks {
@@ -148,42 +148,6 @@ Alarm find_liar(const LauvSupervisor::Param& p, const Instruments& i, double dt,
   return found;
 }
 
-bool is_low(const LauvSupervisor::Param& p, const Reading& voltage) {
-  return voltage.count > 0 && voltage.value < p.min_voltage;
-}
-
-// The first that is stuck, or silent.
-std::optional<std::size_t> find_failed(const FinCondition& fins) {
-  for (std::size_t i = 0; i < fins.states.size(); ++i)
-    if (fins.states[i] == FinState::stuck || fins.states[i] == FinState::silent) return i;
-  return std::nullopt;
-}
-
-// A battery that is flat stops propeller and servos, so the next reading of its voltage is waited for.
-Alarm find_actuator(const LauvSupervisor::Param& p, const LauvSupervisor::In& in, LauvSupervisor::State& state) {
-  constexpr Alarm alarms[] = {Alarm::bottom_fin, Alarm::port_fin, Alarm::starboard_fin, Alarm::top_fin};
-  const Reading& voltage = in.instruments.voltage;
-  Alarm found = in.fins.propeller == FinState::stuck ? Alarm::propeller : Alarm::none;
-  if (const auto fin = find_failed(in.fins); fin && p.fins_end_dive) found = alarms[*fin];
-  if (found == Alarm::none) {
-    state.voltages_before_failure = voltage.count;
-    return found;
-  }
-  if (voltage.count > 0 && voltage.count == state.voltages_before_failure) return Alarm::none;
-  return is_low(p, voltage) ? Alarm::voltage_limit : found;
-}
-
-FinCheck check_fins(const LauvSupervisor::Param& p, const FinCondition& fins, double dt, LauvSupervisor::State& state) {
-  const bool none =
-      std::all_of(fins.states.begin(), fins.states.end(), [](FinState fin) { return fin == FinState::unknown; });
-  state.servos_silent_for = none && state.heard ? state.servos_silent_for + dt : 0;
-  if (state.servos_silent_for > p.sensor_timeout) return FinCheck::unchecked;
-  constexpr FinCheck failed[] = {FinCheck::bottom_failed, FinCheck::port_failed, FinCheck::starboard_failed,
-                                 FinCheck::top_failed};
-  const auto fin = p.fins_end_dive ? std::nullopt : find_failed(fins);
-  return fin ? failed[*fin] : FinCheck::checked;
-}
-
 double calc_heave(const Instruments& i) {
   return sinking_across(i.attitude.x, i.attitude.y, i.velocity.y, i.velocity.z);
 }
@@ -261,7 +225,8 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
   Alarm lost = find_lost(p, in.instruments, dt, state);
   const Alarm liar = find_liar(p, in.instruments, dt, state);
   note_heave(p, in.instruments, dt, state);
-  const FinCheck fins = check_fins(p, in.fins, dt, state);
+  const ActuatorCheck actuators = check_actuators(p, in, state);
+  const FinCheck fins = are_fins_unchecked(p, in.fins, dt, state) ? FinCheck::unchecked : actuators.fins;
   // old readings do not fit each other either
   const bool is_wrong = lost != Alarm::none || liar != Alarm::none;
   if (state.heard && is_wrong && calc_silence(state) > p.vehicle_timeout) lost = Alarm::vehicle_lost;
@@ -270,7 +235,7 @@ void LauvSupervisor::run(const Param& p, const Tick& tick, const In& in, State& 
   const Alarm leak = find_leak(in.instruments, state.alarm);
   if (state.alarm == Alarm::none || stopped) {
     Alarm found = Alarm::none;
-    for (const Alarm next : {leak, lost, liar, find_actuator(p, in, state), find_exceeded(p, in, state)})
+    for (const Alarm next : {leak, lost, liar, actuators.alarm, find_exceeded(p, in, state)})
       if (found == Alarm::none) found = next;
     if (state.alarm == Alarm::none || found == Alarm::none) {
       state.alarm = found;

@@ -127,7 +127,8 @@ struct LauvSupervisor {
           field<&P::surge_mass>("kg", "with added mass").in(0.1, 10000), field<&P::climb_speed>("m/s", "on the way up"),
           field<&P::climb_time>("s", "after which it stops the propeller in any case"),
           field<&P::climb_sink>("m", "deeper than at the alarm by so much it stops the propeller, too"),
-          field<&P::fins_end_dive>("", "false: with a fin that is stuck or silent it goes on without an alarm"));
+          field<&P::fins_end_dive>(
+              "", "false: with fins that are stuck or silent it goes on without an alarm, and says which"));
     }
   };
   struct In {

@@ -71,19 +71,27 @@ constexpr auto enumerators(Alarm) {
        {"leak3", leak3, "it comes up, as there is water at the fourth leak sensor, or that is silent"}}};
 }
 
-/// Whether anything finds a fin that sticks, and which one it goes on without.
-enum class FinCheck : std::uint8_t { checked, unchecked, bottom_failed, port_failed, starboard_failed, top_failed };
+/// Whether anything finds a fin that sticks; and where that does not end the dive, which one does.
+enum class FinCheck : std::uint8_t {
+  checked,
+  unchecked,
+  bottom_failed,
+  port_failed,
+  starboard_failed,
+  top_failed,
+  several_failed
+};
 
 constexpr auto enumerators(FinCheck) {
   using enum FinCheck;
-  return std::array<Enumerator<FinCheck>, 6>{
+  return std::array<Enumerator<FinCheck>, 7>{
       {{"checked", checked},
        {"unchecked", unchecked, "no fin is checked, as no servo reports where it is"},
-       {"bottom_failed", bottom_failed, "it goes on without the bottom rudder, which is stuck or its servo silent"},
-       {"port_failed", port_failed, "it goes on without the port elevator, which is stuck or its servo silent"},
-       {"starboard_failed", starboard_failed,
-        "it goes on without the starboard elevator, which is stuck or its servo silent"},
-       {"top_failed", top_failed, "it goes on without the top rudder, which is stuck or its servo silent"}}};
+       {"bottom_failed", bottom_failed, "the bottom rudder is stuck or its servo silent"},
+       {"port_failed", port_failed, "the port elevator is stuck or its servo silent"},
+       {"starboard_failed", starboard_failed, "the starboard elevator is stuck or its servo silent"},
+       {"top_failed", top_failed, "the top rudder is stuck or its servo silent"},
+       {"several_failed", several_failed, "several fins are stuck or their servos silent"}}};
 }
 
 struct Condition {
@@ -91,8 +99,9 @@ struct Condition {
   FinCheck fins = FinCheck::checked;
 
   static constexpr auto fields() {
-    return describe(field<&Condition::alarm>("", "why it comes up, or none"),
-                    field<&Condition::fins>("", "by what their servos report"));
+    return describe(
+        field<&Condition::alarm>("", "why it comes up, or none"),
+        field<&Condition::fins>("", "by what their servos report; which one has failed if that ends no dive"));
   }
 };
 

@@ -73,7 +73,7 @@ struct VehicleReport {
     return describe(field<&S::depth>("m", "below the surface"), field<&S::pitch>("rad", "nose up"),
                     field<&S::heading>("rad", "clockwise from north"), field<&S::speed>("m/s", "through the water"),
                     field<&S::alarm>("", "why it comes up, or none"),
-                    field<&S::fins>("", "by what their servos report"));
+                    field<&S::fins>("", "by what their servos report; which one has failed if that ends no dive"));
   }
 };
 

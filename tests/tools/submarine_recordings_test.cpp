@@ -117,13 +117,14 @@ TEST_SUITE("tools/submarine_recordings") {
   }
 
   // Why a random binary sequence is the run that a model follows worst: its heading is wrong from then on.
-  TEST_CASE(
-      "one switch of a random sequence of fins that is late by two steps leads astray by 30 cm or more, all by 6") {
+  TEST_CASE("a switch of a random sequence of fins that is two steps late leads astray by 0.3 to 1.5 m, all by 6 cm") {
     const auto in_time = places_of_random_turns(0, {});
-    CHECK(greatest_distance(in_time, places_of_random_turns(0.02, {})) < 0.07);
+    CHECK(greatest_distance(in_time, places_of_random_turns(0.02, {})) < 0.065);
     for (const std::size_t only : {1, 9, 21, 33}) {
       CAPTURE(only);
-      CHECK(greatest_distance(in_time, places_of_random_turns(0.02, only)) > 0.3);
+      const double astray = greatest_distance(in_time, places_of_random_turns(0.02, only));
+      CHECK(astray > 0.3);
+      CHECK(astray < 1.5);
     }
   }
 

@@ -48,7 +48,7 @@ void Sensor::measure(const Values& truth, const FailingSensor::Error& error) {
   measured_ = values;
 }
 
-// Also while it reports nothing.
+// By all the time since it measured last.
 void Sensor::wander(std::int64_t step) {
   const double seconds = std::chrono::duration<double>((step - wandered_to_) * grid).count();
   wandered_to_ = step;

@@ -63,13 +63,21 @@ TEST_SUITE("distributers/lauv_operator_fins") {
     CHECK(vehicle.take() == Lines{"1: entry 1 " + unchecked, "2: state 2 " + unchecked});
   }
 
-  TEST_CASE("so is a fin that it goes on without, by its name, and that it follows again") {
+  TEST_CASE("so is a fin that has failed and ends no dive, by its name, another one, and that all are tried again") {
     Reporting vehicle;
-    const std::string top = "it goes on without the top rudder, which is stuck or its servo silent";
+    const std::string top = "the top rudder is stuck or its servo silent";
+    const std::string several = "several fins are stuck or their servos silent";
     vehicle.pass(2s, {.fins = FinCheck::top_failed});
     CHECK(vehicle.take() == Lines{"1: entry 1 " + top, "2: state 2 " + top});
+    vehicle.pass(2s, {.fins = FinCheck::several_failed});
+    CHECK(vehicle.take() == Lines{"1: entry 1 " + several, "2: state 2 " + several});
     vehicle.pass(2s, {.fins = FinCheck::checked});
-    CHECK(vehicle.take() == Lines{"1: entry 0 all fins follow again", "2: state 1 active"});
+    CHECK(vehicle.take() == Lines{"1: entry 0 all fins are tried again", "2: state 1 active"});
+    vehicle.pass(2s, {.fins = FinCheck::port_failed});
+    vehicle.pass(2s, {.fins = FinCheck::unchecked});
+    vehicle.take();
+    vehicle.pass(2s, {.fins = FinCheck::checked});
+    CHECK(vehicle.take() == Lines{"1: entry 0 fins are checked again, as their servos report", "2: state 1 active"});
   }
 
   TEST_CASE("whoever asks for states while no fin is checked gets that one; an alarm is before it") {

@@ -228,7 +228,7 @@ TEST_SUITE("distributers/links/stream") {
     struct Twin : Holder {
       void hold(int fd, const std::vector<Address>&) override { held = Descriptor(dup(fd)); }
       void let_go() override {}
-      void leave_alone(bool) override {}
+      bool set_steers_itself(bool) override { return true; }
       Descriptor held;
     } twin;
     auto transport = std::make_unique<SerialTransport>(name, 115200);

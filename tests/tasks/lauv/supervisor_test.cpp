@@ -258,26 +258,6 @@ TEST_SUITE("tasks/lauv_supervisor") {
     }
   }
 
-  TEST_CASE("it goes on without a fin that is stuck or silent where its parameter says so, and says without which") {
-    constexpr FinCheck failed[] = {FinCheck::bottom_failed, FinCheck::port_failed, FinCheck::starboard_failed,
-                                   FinCheck::top_failed};
-    for (std::size_t fin = 0; fin < 4; ++fin)
-      for (const FinState is : {FinState::stuck, FinState::silent}) {
-        LauvSupervisor::State state;
-        LauvSupervisor::Out out;
-        LauvSupervisor::In in = calm_submarine(1);
-        in.fins.states = {FinState::follows, FinState::follows, FinState::follows, FinState::follows};
-        in.fins.states[fin] = is;
-        LauvSupervisor::run({.fins_end_dive = false}, every_50_ms, in, state, out);
-        CHECK(out.condition.alarm == Alarm::none);
-        CHECK(out.condition.fins == failed[fin]);
-        CHECK(out.setpoint.depth == wanted.depth);
-        in.fins.states[fin] = FinState::follows;
-        LauvSupervisor::run({.fins_end_dive = false}, every_50_ms, in, state, out);
-        CHECK(out.condition.fins == FinCheck::checked);
-      }
-  }
-
   TEST_CASE("GPS ends the climb, and so does a climb that takes too long or goes blind") {
     const auto climb = [](double seconds, auto change) {
       return after(seconds, [&](LauvSupervisor::In& in) {

@@ -138,6 +138,15 @@ TEST_SUITE("tools/status_events") {
               "to_neptus at 3.02 s: fins checked"});
   }
 
+  TEST_CASE("a fin that has failed and ends no dive is an event of the run") {
+    const std::string run =
+        "run specs/exolauv.yaml --for 8s --set tasks.supervisor.parameters.fins_end_dive=false "
+        "--set 'distributers.dune.link.parameters={dynamics: rigid, failures: {fin3: {kind: hardover, at: 5, to: 1}}}'";
+    CHECK(reported_in(command::run_jarol(run).output) ==
+          std::vector<std::string>{
+              "to_neptus at 6.02 s: alarm none, fins top_failed: the top rudder is stuck or its servo silent"});
+  }
+
   TEST_CASE("water in the hull is reported, on any clock and by threads too") {
     const std::string line =
         "alarm leak, fins checked: it comes up, as there is water at the first leak sensor, or that is silent";

@@ -1,0 +1,94 @@
+// Who else holds a link's way to a vehicle learns when that steers itself.
+#include <doctest/doctest.h>
+
+#include <memory>
+#include <vector>
+
+#include "distributers/interfaces/typed.h"
+#include "distributers/lauv/vehicle.h"
+#include "distributers/links/linked.h"
+#include "distributers/links/udp.h"
+#include "tests/distributers/links/open_link.h"
+
+namespace {
+using namespace jarol;
+using namespace jarol::distributers;
+using namespace std::chrono_literals;
+namespace imc = messages::imc;
+
+struct Heard : Holder {
+  void hold(int, const std::vector<Address>&) override {}
+  void let_go() override {}
+  bool set_steers_itself(bool steers_itself) override {
+    said.push_back(steers_itself);
+    return listens;
+  }
+  std::vector<bool> take() { return std::exchange(said, {}); }
+  std::vector<bool> said;
+  bool listens = true;
+};
+
+// A submarine on a link that nobody has connected, and what its holder is told.
+struct Held {
+  Held() {
+    auto link = std::make_unique<Link>(std::make_unique<UdpTransport>(tests::any, Address{}), imc::message_set(),
+                                       LinkOptions{});
+    link->hold_by(&holder);
+    auto made = std::make_unique<Typed<LauvVehicle>>();
+    vehicle = made.get();
+    system = std::make_unique<LinkedSystem>(std::move(link), std::move(made));
+  }
+  std::vector<bool> told(Duration instant) {
+    system->reach(instant);
+    return holder.take();
+  }
+  void report_loops(std::uint32_t loops) {
+    imc::VehicleState state;
+    state.control_loops = loops;
+    vehicle->receive(messages::refer_to(state));
+  }
+
+  Heard holder;
+  Typed<LauvVehicle>* vehicle = nullptr;
+  std::unique_ptr<LinkedSystem> system;
+};
+
+using Told = std::vector<bool>;
+}  // namespace
+
+TEST_SUITE("distributers/steers_itself") {
+  TEST_CASE("the guardian is told once when a vehicle begins to steer itself, and once when it no longer does") {
+    Held held;
+    CHECK(held.told(0s) == Told{});
+    held.report_loops(imc::CLoopsMask::DEPTH);
+    CHECK(held.told(1s) == Told{true});
+    held.report_loops(imc::CLoopsMask::DEPTH);
+    CHECK(held.told(2s) == Told{});
+    held.report_loops(0);
+    CHECK(held.told(3s) == Told{false});
+    CHECK(held.told(4s) == Told{});
+  }
+
+  TEST_CASE("it no longer does when it has not said so for 5 s, and when another vehicle is there") {
+    Held held;
+    held.report_loops(imc::CLoopsMask::DEPTH);
+    CHECK(held.told(1s) == Told{true});
+    CHECK(held.told(4999ms) == Told{});
+    CHECK(held.told(5s) == Told{false});
+    held.report_loops(imc::CLoopsMask::DEPTH);
+    CHECK(held.told(6s) == Told{true});
+    held.vehicle->peer_changed();
+    CHECK(held.told(7s) == Told{false});
+  }
+
+  TEST_CASE("what the guardian could not be told it is told again") {
+    Held held;
+    held.holder.listens = false;
+    held.report_loops(imc::CLoopsMask::DEPTH);
+    CHECK(held.told(1s) == Told{true});
+    CHECK(held.told(2s) == Told{true});
+    held.holder.listens = true;
+    CHECK(held.told(3s) == Told{true});
+    CHECK(held.told(4s) == Told{});
+  }
+}
