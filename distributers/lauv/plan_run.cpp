@@ -130,10 +130,12 @@ bool PlanRun::follow(const messages::imc::Reference& reference, std::uint16_t so
                      const Origin& origin, const tasks::Motion& motion) {
   if (!runs_ || !follower_ || !follower_->take(reference, source, entity, now, origin, motion)) return false;
   if (follower_->is_done()) return finish_maneuver(motion, now);
-  const std::uint32_t number = leg_.number;
-  const bool same = same_path(leg_, follower_->leg());
+  if (!same_path(leg_, follower_->leg())) {
+    begin_leg(follower_->leg());
+    return true;
+  }
   leg_ = follower_->leg();
-  leg_.number = same ? number : ++number_;
+  leg_.number = number_;
   return true;
 }
 

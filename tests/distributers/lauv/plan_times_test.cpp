@@ -123,6 +123,43 @@ TEST_SUITE("distributers/lauv_plan_times") {
     c.check_times(-1, -1);
   }
 
+  TEST_CASE(
+      "how long it still takes to a reference is unknown when the next wants it elsewhere, until it is reported") {
+    imc::FollowReference follow;
+    follow.control_src = 0xffff;
+    follow.control_ent = 0xff;
+    const auto lead = [](double north, double speed) {
+      const auto there = placed<imc::Goto>(north);
+      imc::Reference reference;
+      reference.lat = there.lat;
+      reference.lon = there.lon;
+      reference.flags = imc::Reference::Flags::LOCATION | imc::Reference::Flags::SPEED;
+      reference.speed = packed(imc::DesiredSpeed{speed, imc::SpeedUnits::METERS_PS});
+      return reference;
+    };
+    Flown c;
+    c.fly(follow);
+    c.check_times(-1, -1);
+    c.say(lead(100, 1));
+    c.note(99.5);
+    c.check_times(99, -1);
+    c.say(lead(100, 1.2));  // the same way, faster
+    c.pass(1s);
+    c.check_times(99, -1);
+    c.say(lead(20, 1.2));
+    c.pass(1s);
+    c.check_times(-1, -1);
+    c.note(16.5);
+    c.check_times(16, -1);
+    c.note(0, true);  // it circles there
+    c.check_times(-1, -1);
+    c.note(0.5);
+    c.check_times(0, -1);
+    c.say(lead(100, 1));
+    c.pass(1s);
+    c.check_times(-1, -1);
+  }
+
   TEST_CASE("a time that its field can't hold is the longest that it can") {
     Flown c;
     c.fly(placed<imc::Goto>(100));
