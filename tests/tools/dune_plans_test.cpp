@@ -12,6 +12,7 @@
 #include "distributers/messages/payload.h"
 #include "graph/math/geometry.h"
 #include "tests/distributers/lauv_console.h"
+#include "tests/how_many.h"
 #include "tests/tools/lauv_mission.h"
 #include "tests/tools/lauv_plan.h"
 
@@ -31,6 +32,12 @@ imc::PlanControl start(const char* name, const M& m) {
 std::vector<std::string> current(double north, double east) {
   const std::string sea = "distributers.dune.link.parameters.sea.current_";
   return {sea + "north=" + std::to_string(north) + " m/s", sea + "east=" + std::to_string(east) + " m/s"};
+}
+
+// Each is whole plans; the first alone where tries_less.
+std::vector<std::vector<std::string>> currents(std::vector<std::vector<std::string>> all) {
+  if (tries_less) all.resize(1);
+  return all;
 }
 
 void fly_square(const std::vector<std::string>& set, double settled_after, double widest, double widest_turn) {
@@ -106,7 +113,7 @@ void fly_five(const std::vector<std::string>& set, double farthest) {
                   .then("StationKeeping5", station)
                   .start());
   std::vector<std::string> flown;
-  std::map<std::string, std::pair<double, double>> depths;  // least and greatest
+  std::map<std::string, std::pair<double, double>> depths;  // min and max
   std::map<std::string, std::pair<double, double>> ends;    // true places
   double progress = 0, rows_east = 0;
   const bool done = mission.fly(900s, [&] {
@@ -123,8 +130,8 @@ void fly_five(const std::vector<std::string>& set, double farthest) {
     CHECK(state.plan_progress >= static_cast<float>(progress));
     progress = static_cast<double>(state.plan_progress);
     const double depth = mission.truth("depth");
-    auto& [min, greatest] = depths[name];
-    if (mission.progress().distance < 45) min = std::min(min, depth), greatest = std::max(greatest, depth);
+    auto& [min, max] = depths[name];
+    if (mission.progress().distance < 45) min = std::min(min, depth), max = std::max(max, depth);
     if (name == "Rows2") rows_east = std::max(rows_east, mission.truth("y"));
     return false;
   });
@@ -152,7 +159,7 @@ TEST_SUITE("tools/dune_plans") {
 
   // which carries it out of its turns
   TEST_CASE("in a current of 0.3 m/s it is within 0.5 m of each side from 25 s after a turn began") {
-    for (const auto& set : {current(0, 0.3), current(-0.21, 0.21)}) {
+    for (const auto& set : currents({current(0, 0.3), current(-0.21, 0.21)})) {
       CAPTURE(set[0]);
       CAPTURE(set[1]);
       fly_square(set, 25, 0.5, 4);
@@ -161,6 +168,7 @@ TEST_SUITE("tools/dune_plans") {
 
   TEST_CASE("a path of three points is flown from line to line, and ends at the last") {
     for (const bool drifts : {false, true}) {
+      if (tries_less && drifts) break;
       CAPTURE(drifts);
       Mission mission(current(0, drifts ? 0.3 : 0));
       auto path = maneuver<imc::FollowPath>(0, 0);
@@ -229,7 +237,7 @@ TEST_SUITE("tools/dune_plans") {
   }
 
   TEST_CASE("in a current of 0.3 m/s the plan of five maneuvers is flown, too, and each ends where it is to") {
-    for (const auto& set : {current(0, 0.3), current(-0.3, 0)}) {
+    for (const auto& set : currents({current(0, 0.3), current(-0.3, 0)})) {
       CAPTURE(set[0]);
       CAPTURE(set[1]);
       fly_five(set, 15);

@@ -139,9 +139,10 @@ TEST_SUITE("tools/exolauv") {
   }
 
   // specs/flying.md says so of seeds 1 to 100
-  TEST_CASE("at sea it keeps its true depth within 4.2 cm from 30 s on, and within 3.9 with every seed but 51") {
+  TEST_CASE("at sea it keeps its true depth within 3.9 cm from 30 s on with every seed but 51, which needs 4.2") {
     constexpr std::uint64_t widest = 51;
-    std::vector<std::uint64_t> seeds{1, 2, widest};
+    std::vector<std::uint64_t> seeds{widest};
+    if (!tests::tries_less) seeds.insert(seeds.end(), {1, 2});
     if (tests::is_full()) {
       seeds.resize(100);
       std::iota(seeds.begin(), seeds.end(), 1);
@@ -156,6 +157,7 @@ TEST_SUITE("tools/exolauv") {
       CHECK(done.alarm == tasks::Alarm::none);
       CHECK(worst > 0.02);  // there are waves
       CHECK(worst < (seed == widest ? 0.042 : 0.039));
+      if (seed == widest) CHECK(worst > 0.039);  // or it is no exception any more
     }
   }
 
