@@ -1,4 +1,6 @@
-// A full DUNE that flies a plan of its own, beside the shipped graph: what it sent in a dive, with its loops on.
+// The shipped graph, and a full DUNE that flies a plan of its own: what DUNE sent in a dive is given by hand to the
+// submarine's distributer, what this makes of it to the graph, and what the graph commands to the distributer again,
+// which passes it on or not. There is no link, and as the dive is a recording, nothing that is commanded changes it.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -41,7 +43,8 @@ struct Sent : messages::Receiver {
 
 TEST_SUITE("tools/dune_loops") {
   TEST_CASE(
-      "while DUNE's own loops are on nothing is sent to it; the graph sees its dive meanwhile, and steers after") {
+      "while DUNE's own loops are on its distributer sends it nothing of what the graph commands, which follows the "
+      "recorded dive without an alarm; as soon as they are off it sends that") {
     Sent sent;
     auto session =
         jarol::open("specs/exolauv.yaml", {.profile = "dune", .set = {"expect=nothing"}, .fed = {"dune", "neptus"}});
@@ -61,7 +64,7 @@ TEST_SUITE("tools/dune_loops") {
     tasks::Servos servos;
     std::size_t next = 0;
     std::int64_t steps = 0;
-    double most_thrust = 0, worst = 0;
+    double max_thrust = 0, worst = 0;
     for (; packets[next].seconds + 0.05 < packets.back().seconds; ++steps) {
       if (steps % 20 == 0) say_loops(0x4C9);  // as in its Goto: path, depth, yaw, speed, torque
       for (; packets[next].seconds <= seconds(session.now()); ++next) {
@@ -78,11 +81,11 @@ TEST_SUITE("tools/dune_loops") {
       for (const FinState fin : session.value<tasks::FinCondition>("fin_watch.fins").states)
         CHECK(fin == FinState::follows);
       worst = std::max(worst, std::abs(session.value<tasks::Motion>("navigation.motion").z - instruments.depth.value));
-      most_thrust = std::max(most_thrust, session.value<tasks::Actuation>("fins.actuation").thruster);
+      max_thrust = std::max(max_thrust, session.value<tasks::Actuation>("fins.actuation").thruster);
     }
     CHECK(steps > 790);
     CHECK(sent.names.empty());
-    CHECK(most_thrust > 0.4);
+    CHECK(max_thrust > 0.4);
     CHECK(worst < 0.1);
     const auto motion = session.value<tasks::Motion>("navigation.motion");
     CHECK(motion.z == doctest::Approx(3).scale(0).epsilon(0.01));
