@@ -4,50 +4,25 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <string>
+#include <numbers>
 
-#include "tests/tasks/calm_submarine.h"
-#include "tests/tasks/lauv/every_50_ms.h"
+#include "tests/tasks/lauv/watched_submarine.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::tasks;
-using tests::calm_submarine;
-using tests::every_50_ms;
+using tests::Change;
+using tests::unchanged;
+using tests::WatchedSubmarine;
 constexpr double degrees = std::numbers::pi / 180;
-
-using Change = std::function<void(LauvSupervisor::In&)>;
-
-struct Watched {
-  LauvSupervisor::State state{};
-  LauvSupervisor::Out out{};
-  std::int64_t k = 0;
-
-  // So many steps of 50 ms.
-  Alarm run(int steps, const Change& change) {
-    for (int i = 0; i < steps; ++i) {
-      LauvSupervisor::In in = calm_submarine(++k);
-      change(in);
-      LauvSupervisor::run({}, every_50_ms, in, state, out);
-    }
-    return out.condition.alarm;
-  }
-};
-
-const Change as_it_is = [](LauvSupervisor::In&) {};
 
 // Steps of 50 ms after a calm second until the alarm; 0: none within 100 s.
 int steps_to_alarm(const Change& change, Alarm expected) {
-  Watched w;
-  w.run(20, as_it_is);
-  for (int step = 1; step <= 2000; ++step) {
-    const Alarm alarm = w.run(1, change);
-    if (alarm == Alarm::none) continue;
-    CHECK(alarm == expected);
-    return step;
-  }
-  return 0;
+  WatchedSubmarine w;
+  w.run(20, unchanged);
+  const int steps = w.steps_to_alarm(change);
+  CHECK(w.out.condition.alarm == (steps > 0 ? expected : Alarm::none));
+  return steps;
 }
 }  // namespace
 
@@ -90,8 +65,8 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
         {-20, -19.999, [](LauvSupervisor::In& in, double x) { in.instruments.voltage.value = -x; },
          Alarm::voltage_limit}};
     for (const Case& c : cases) {
-      Watched w;
-      w.run(20, as_it_is);
+      WatchedSubmarine w;
+      w.run(20, unchanged);
       CHECK(w.run(1, [&](LauvSupervisor::In& in) { c.set(in, c.below); }) == Alarm::none);
       CHECK(w.run(1, [&](LauvSupervisor::In& in) { c.set(in, c.above); }) == c.alarm);
     }
@@ -131,7 +106,7 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
                 .toRotationMatrix();
         const Eigen::Vector3d felt_b = R_nb.transpose() * Eigen::Vector3d(0, 0, -9.81);
         const auto lies = [&](double error) {
-          Watched w;
+          WatchedSubmarine w;
           return w.run(60, [&](LauvSupervisor::In& in) {
             in.instruments.attitude = {phi, theta, 0, in.instruments.attitude.count};
             in.instruments.forces = {felt_b.x(), felt_b.y() + error, felt_b.z(), in.instruments.forces.count};
@@ -158,9 +133,9 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
     // turned at once by 8 degrees: 2 s later a third of the difference is left, after one second more than 6 of 8
     const Change jump = [](LauvSupervisor::In& in) { in.instruments.attitude.y = 12 * degrees; };
     CHECK(steps_to_alarm(jump, Alarm::attitude) > 0);
-    Watched w;
+    WatchedSubmarine w;
     double theta = 0;
-    w.run(20, as_it_is);
+    w.run(20, unchanged);
     const Alarm alarm = w.run(40, [&](LauvSupervisor::In& in) {
       theta += 0.05 * 0.1;
       in.instruments.attitude.y = theta;
@@ -174,7 +149,7 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
   TEST_CASE("the propeller's speed is what its thrust and the drag leave: a log that agrees does not alarm") {
     // 300 rad/s would be 18.9 N, bounded to 14.4 N; 2.4 N s/m u (1 + u) = 14.4 N at u = 2
     const double u = 2;
-    Watched w;
+    WatchedSubmarine w;
     const Change going = [&](LauvSupervisor::In& at) {
       at.instruments.rpm.value = 300 * 30 / std::numbers::pi;
       at.instruments.velocity.x = u;
@@ -183,14 +158,14 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
     CHECK(w.state.speed == doctest::Approx(u).scale(0).epsilon(1e-6));
     // below the bound: 150 rad/s are 4.725 N
     const double slow = (-1 + std::sqrt(1 + 4 * 4.725 / 2.4)) / 2;
-    Watched v;
+    WatchedSubmarine v;
     v.run(4000, [&](LauvSupervisor::In& at) {
       at.instruments.rpm.value = 150 * 30 / std::numbers::pi;
       at.instruments.velocity.x = slow;
     });
     CHECK(v.state.speed == doctest::Approx(slow).scale(0).epsilon(1e-6));
     // and 19 kg give the first step from rest: 14.4 N for 50 ms
-    Watched first;
+    WatchedSubmarine first;
     first.run(1, [&](LauvSupervisor::In& at) { at.instruments.rpm.value = 300 * 30 / std::numbers::pi; });
     CHECK(first.state.speed == doctest::Approx(0.05 * 14.4 / 19));
   }
@@ -218,8 +193,8 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
         {[](LauvSupervisor::In& in) { in.instruments.velocity.count = 20; }, Alarm::speed, false}};
     for (const Case& c : cases) {
       CAPTURE(static_cast<int>(c.alarm));
-      Watched w;
-      w.run(20, as_it_is);
+      WatchedSubmarine w;
+      w.run(20, unchanged);
       CHECK(w.run(52, c.set) == c.alarm);
       CHECK(w.out.setpoint.speed == (c.climbs ? 1 : 0));
       CHECK(w.out.setpoint.depth == (c.climbs ? -1000 : 0));
@@ -229,12 +204,12 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
 
   TEST_CASE("a climb on which it sinks by a metre and a half ends, unless it is the gauge that is in doubt") {
     const auto speed_at = [](double sunk, bool gauge_is_right) {
-      Watched w;
-      w.run(20, as_it_is);
+      WatchedSubmarine w;
+      w.run(20, unchanged);
       w.run(1, [](LauvSupervisor::In& in) { in.instruments.leak.value = 1; });
       if (!gauge_is_right) w.state.alarm = Alarm::depth_gauge;
       w.run(1, [&](LauvSupervisor::In& in) { in.instruments.depth.value = 5 + sunk; });
-      w.run(1, as_it_is);  // and it stays off
+      w.run(1, unchanged);  // and it stays off
       return w.out.setpoint.speed;
     };
     CHECK(speed_at(1.49, true) == 1);
@@ -244,7 +219,7 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
 
   TEST_CASE("without a depth gauge it is as deep as the pressure says: GPS is not waited for, and limits hold") {
     const auto alarm_at = [](double depth) {
-      Watched w;
+      WatchedSubmarine w;
       return w.run(100, [&](LauvSupervisor::In& in) {
         in.instruments.depth = {0, -1};
         in.instruments.pressure.value = 1013.25 + 98.1 * depth;
@@ -257,7 +232,7 @@ TEST_SUITE("tasks/lauv_supervisor/edges") {
   }
 
   TEST_CASE("a climb ends after a minute") {
-    Watched w;
+    WatchedSubmarine w;
     const Change leak = [](LauvSupervisor::In& in) { in.instruments.leak.value = 1; };
     w.run(1199, leak);  // 59.95 s
     CHECK(w.out.setpoint.speed == 1);

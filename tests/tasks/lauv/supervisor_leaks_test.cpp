@@ -3,34 +3,17 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <initializer_list>
 
-#include "tests/tasks/calm_submarine.h"
-#include "tests/tasks/lauv/every_50_ms.h"
+#include "tests/tasks/lauv/watched_submarine.h"
 
 namespace {
 using namespace jarol;
 using namespace jarol::tasks;
-using tests::calm_submarine;
-using tests::every_50_ms;
 
 constexpr std::array names{Alarm::leak, Alarm::leak1, Alarm::leak2, Alarm::leak3};
 
-struct LeakWatch {
-  LauvSupervisor::State state{};
-  LauvSupervisor::Out out{};
-  std::int64_t k = 0;
-
-  // So many steps of 50 ms.
-  Alarm run(int steps, const std::function<void(LauvSupervisor::In&)>& change) {
-    for (int i = 0; i < steps; ++i) {
-      LauvSupervisor::In in = calm_submarine(++k);
-      change(in);
-      LauvSupervisor::run({}, every_50_ms, in, state, out);
-    }
-    return out.condition.alarm;
-  }
+struct LeakWatch : tests::WatchedSubmarine {
   Alarm run_wet(std::initializer_list<std::size_t> sensors, int steps = 1) {
     return run(steps, [&](LauvSupervisor::In& in) {
       for (const std::size_t sensor : sensors) (in.instruments.*leak_readings[sensor]).value = 1;
