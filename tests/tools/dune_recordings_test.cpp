@@ -139,7 +139,7 @@ TEST_SUITE("tools/dune_recordings") {
     for (const auto& servo : last.fins) CHECK(servo.count == 799);
     CHECK(last.propeller.count == 800);
     std::array<double, 4> furthest{};
-    double fastest = 0, most_thrust = 0;
+    double fastest = 0, max_thrust = 0;
     for (std::size_t k = 0; k < dive.servos.size(); ++k) {
       CAPTURE(k);
       for (std::size_t i = 0; i < furthest.size(); ++i) {
@@ -149,14 +149,14 @@ TEST_SUITE("tools/dune_recordings") {
       // for 2 s it may steer itself, as it has not said whether it does
       CHECK(dive.fins[k].propeller == (k > 40 ? FinState::follows : FinState::unknown));
       fastest = std::max(fastest, dive.servos[k].propeller.speed);
-      most_thrust = std::max(most_thrust, dive.servos[k].propeller.commanded);
+      max_thrust = std::max(max_thrust, dive.servos[k].propeller.commanded);
     }
     // it has gone through all that they can do; the rudders had nothing to do
     CHECK(furthest[1] == doctest::Approx(25 * degree).scale(0).epsilon(1e-6));
     CHECK(furthest[2] == furthest[1]);
     CHECK(furthest[0] < 0.01 * degree);
     CHECK(fastest == 2459);
-    CHECK(most_thrust == 1);
+    CHECK(max_thrust == 1);
   }
 
   TEST_CASE("labels by EntityInfo alone, or by EntityList alone, are as good as both, and nobody is asked for any") {

@@ -150,9 +150,9 @@ TEST_SUITE("graph/analysis/check_wrong") {
     Budget budget;
     const auto margins = sensitivity_of(j.system, true, budget);
     REQUIRE((margins && margins->min_deadline[1]));
-    const std::int64_t least = margins->min_deadline[1]->count();
-    const std::string ns = std::to_string(least) + "ns, wcet: 1ms, priority: 3",
-                      less = std::to_string(least - 1) + "ns, wcet: 1ms, priority: 3";
+    const std::int64_t min_deadline = margins->min_deadline[1]->count();
+    const std::string ns = std::to_string(min_deadline) + "ns, wcet: 1ms, priority: 3",
+                      less = std::to_string(min_deadline - 1) + "ns, wcet: 1ms, priority: 3";
     CHECK(Judged("min_deadline", "wcet: 1ms, priority: 3", "deadline: " + ns).result.verdict == Verdict::schedulable);
     CHECK(Judged("min_deadline", "wcet: 1ms, priority: 3", "deadline: " + less).result.verdict ==
           Verdict::not_schedulable);

@@ -80,20 +80,20 @@ TEST_SUITE("runtime/appender") {
     Appender appender(file.stream());
     const auto piece = [&](unsigned i) { return some(mebibyte + 17, i); };
     std::string expected;
-    std::uint64_t most = 0;
+    std::uint64_t max_ahead = 0;
     for (unsigned i = 0; i < 20; ++i) {
       appender.append("head", piece(i), "tail");
       expected += "head" + piece(i) + "tail";
       if (i == 2) CHECK_MESSAGE(file.taken() < 4 * mebibyte, "a short file gets nothing ahead");
-      most = std::max(most, file.taken() - expected.size());
+      max_ahead = std::max(max_ahead, file.taken() - expected.size());
     }
     CHECK(file.content() == expected);
     const OwnFile probe("probe");
     if (::fallocate(::fileno(probe.stream()), FALLOC_FL_KEEP_SIZE, 0, 4096) == 0)
-      CHECK(most > 3 * mebibyte);
+      CHECK(max_ahead > 3 * mebibyte);
     else
       MESSAGE("this file system allocates nothing ahead");
-    CHECK(most <= 16 * mebibyte);
+    CHECK(max_ahead <= 16 * mebibyte);
     appender.end();
     CHECK(file.content() == expected);
     CHECK(file.taken() < expected.size() + 64 * 1024);
@@ -130,8 +130,8 @@ TEST_SUITE("runtime/appender") {
     rlimit before{};
     REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
     const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-    const std::size_t most = 2 * mebibyte + 1000;
-    const rlimit limit{most, before.rlim_max};
+    const std::size_t max_size = 2 * mebibyte + 1000;
+    const rlimit limit{max_size, before.rlim_max};
     REQUIRE(::setrlimit(RLIMIT_FSIZE, &limit) == 0);
     std::string given;
     int reason = 0;
@@ -145,6 +145,6 @@ TEST_SUITE("runtime/appender") {
     ::setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);
     CHECK(reason == EFBIG);
-    CHECK(file.content() == given.substr(0, most));
+    CHECK(file.content() == given.substr(0, max_size));
   }
 }

@@ -88,8 +88,8 @@ TEST_SUITE("runtime/lost_values") {
     const RecordedRun run = recording.read(lost_count);
     REQUIRE(run.gaps().size() == 1);
     const Gap gap = run.gaps()[0];
-    constexpr std::int64_t least = 15 * (256 << 10) / 50;  // of pieces of so many bytes
-    CHECK(gap.from > least);
+    constexpr std::int64_t min_from = 15 * (256 << 10) / 50;  // of pieces of so many bytes
+    CHECK(gap.from > min_from);
     CHECK(gap.to - gap.from + 1 == static_cast<std::int64_t>(gap.values));
     CHECK(LossyRecording::values_in(run) + gap.values == lost_count);
   }

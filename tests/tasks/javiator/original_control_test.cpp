@@ -72,12 +72,12 @@ TEST_SUITE("tasks/original_control") {
       CHECK(run(3, periods) == FlightState::ground);
       run(4, 1);
       CHECK(run(4, 1) == (periods < 160 ? FlightState::flying : FlightState::starting));
-      double most = 0;
+      double max_signal = 0;
       for (int i = 0; i < 200; ++i) {
         run(4, 1);
-        most = std::max(most, motors.motors.signals[0]);
+        max_signal = std::max(max_signal, motors.motors.signals[0]);
       }
-      CHECK(most == 8000);
+      CHECK(max_signal == 8000);
     }
   }
 

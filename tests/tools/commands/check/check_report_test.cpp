@@ -167,12 +167,12 @@ tasks:
   a: {type: Counter, period: 40us, wcet: 23us}
   b: {type: Counter, period: 40us, let: 40us, wcet: 5us, jitter: 14us}
 )");
-    const auto least = [&](const std::string& set) {
+    const auto min_deadline = [&](const std::string& set) {
       return json_of("check --json --sensitivity " + file + set)["tasks"][1]["min_deadline_ns"];
     };
-    CHECK(least("").is_null());
+    CHECK(min_deadline("").is_null());
     CHECK(run_jarol("check " + file + " --set tasks.b.deadline=28us").exit_code == 1);
-    CHECK(least(" --set tasks.b.jitter=10us") == 28'000);
+    CHECK(min_deadline(" --set tasks.b.jitter=10us") == 28'000);
     CHECK(run_jarol("check " + file + " --set tasks.b.jitter=10us --set tasks.b.deadline=28us").exit_code == 0);
   }
 
