@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -59,87 +60,97 @@ constexpr double never = 1e9;
 }  // namespace
 
 TEST_SUITE("tools/javiator_wind") {
-  TEST_CASE("without an IMU in 5 m/s of wind it lands within 3 s, on its feet but for one of 50, mostly softly") {
-    for (const std::string kind : {"lost", "stuck"}) {
-      CAPTURE(kind);
-      const int flights = tests::how_many(10, 100, 2);
-      int overturned = 0, hard = 0, late = 0;
-      double worst = 0, longest = 0;
-      for (int i = 1; i <= flights; ++i) {
+  TEST_CASE(
+      "without an IMU in 5 m/s of wind it is on its feet on the ground within 3 s but for one flight of 50, and meets "
+      "it "
+      "with less than 0.5 m/s in three flights of four") {
+    int flights = 0, wrong = 0, hard = 0;
+    double max_impact = 0, max_time = 0;
+    for (const std::string kind : {"lost", "stuck"})
+      for (int i = 1; i <= tests::how_many(25, 100, 1); ++i) {
+        CAPTURE(kind);
         CAPTURE(i);
         const double fails_at = 6 + i % 5;
         const Flight flight =
             fly_in_wind(failing_at(fails_at, "imu", kind), static_cast<std::uint64_t>(i), never, fails_at + 5);
         const double time = flight.settled(&Glimpse::altitude, 0, 0.02) - fails_at;
-        overturned += is_upright(flight) ? 0 : 1;
-        late += time < 3 ? 0 : 1;
+        ++flights;
+        wrong += is_upright(flight) && time < 3 ? 0 : 1;
         hard += flight.impact() < 0.5 ? 0 : 1;
-        worst = std::max(worst, flight.impact());
-        longest = std::max(longest, time);
+        max_impact = std::max(max_impact, flight.impact());
+        max_time = std::max(max_time, time);
         CHECK(flight.last().state != FlightState::flying);
         CHECK(flight.last().cause == LandingCause::imu_lost);
       }
-      MESSAGE(overturned << " of " << flights << " overturn, " << hard << " meet the ground with 0.5 m/s or more, "
-                         << worst << " m/s at most, after " << longest << " s at most");
-      CHECK(overturned <= flights / 50);
-      CHECK(late <= flights / 50);
-      CHECK(hard <= flights / 4);
-    }
+    MESSAGE(wrong << " of " << flights << " overturn or take 3 s, " << hard << " meet the ground with 0.5 m/s or more, "
+                  << max_impact << " m/s at most, after " << max_time << " s at most");
+    CHECK(wrong <= flights / 50);
+    CHECK(hard <= flights / 4);
   }
 
   TEST_CASE("with a laser stuck in 5 m/s of wind it lands softly, on its feet, near its place") {
-    double worst = 0, furthest = 0;
+    double max_impact = 0, max_distance = 0;
     for (const std::string laser : {"laser_north", "laser_east"})
       for (std::uint64_t seed = 1; seed <= tests::how_many<std::uint64_t>(4, 50, 1); ++seed) {
         CAPTURE(laser);
         CAPTURE(seed);
         const Flight flight = fly_in_wind(failing_at(9, laser, "stuck"), seed, never, 18);
-        worst = std::max(worst, flight.impact());
-        furthest = std::max(furthest, distance(flight, 9, 18));
+        max_impact = std::max(max_impact, flight.impact());
+        max_distance = std::max(max_distance, distance(flight, 9, 18));
         CHECK(flight.last().state == FlightState::ground);
         CHECK(flight.last().cause == LandingCause::position_lost);
         CHECK(flight.impact() < 0.5);
         CHECK(is_upright(flight));
         CHECK(distance(flight, 9, 18) < 1);
       }
-    MESSAGE("meets the ground with " << worst << " m/s at most, " << furthest << " m away at most");
+    MESSAGE("meets the ground with " << max_impact << " m/s at most, " << max_distance << " m away at most");
   }
 
   // gusts push it away where they are more than it may lean against (0.4 rad)
-  TEST_CASE("in 8 m/s of wind with gusts of 2 m/s it comes back to its place whenever it is blown away from it") {
-    const int flights = tests::how_many(6, 50, 2);
-    int far = 0;
+  TEST_CASE(
+      "in 8 m/s of wind with gusts of 2 m/s it is blown up to 6 m away, and back within 10 s: but one flight of ten "
+      "may "
+      "end on the ground") {
+    constexpr double end = 39;
+    const int flights = tests::how_many(6, 50, 1);
+    int grounded = 0;
     for (int seed = 1; seed <= flights; ++seed) {
       CAPTURE(seed);
       const Flight flight = tests::fly({.set = wind_of(8, 2),
                                         .pilot = tests::hover_command,
-                                        .seconds = 39,
+                                        .seconds = end,
                                         .seed = static_cast<std::uint64_t>(seed)});
-      int steps = 0, away = 0, longest = 0, now = 0;
+      if (flight.last().state == FlightState::ground) {
+        ++grounded;
+        continue;
+      }
+      double back = 9, max_away = 0, at_end = std::numeric_limits<double>::infinity();
       for (const Glimpse& g : flight.path) {
         if (g.time < 9) continue;
-        ++steps;
-        now = std::hypot(g.x, g.y) > 0.5 ? now + 1 : 0;
-        away += now > 0 ? 1 : 0;
-        longest = std::max(longest, now);
+        const double away = std::hypot(g.x, g.y);
+        if (away < 0.5) back = g.time;
+        max_away = std::max(max_away, g.time - back);
+        if (g.time > end - 6) at_end = std::min(at_end, away);
       }
-      MESSAGE(distance(flight, 9, 39) << " m away at most, by more than 0.5 m in " << 100.0 * away / steps
-                                      << " % of the time, for " << 0.005 * longest << " s at a time at most");
-      const bool is_held = flight.last().state == FlightState::flying && distance(flight, 9, 39) < 5.5 &&
-                           away < 0.25 * steps && 0.005 * longest < 6;
-      far += is_held ? 0 : 1;
+      MESSAGE(distance(flight, 9, end) << " m away at most, by more than 0.5 m for " << max_away
+                                       << " s at a time, within " << at_end << " m in the last 6 s");
+      CHECK(flight.last().state == FlightState::flying);
+      CHECK(distance(flight, 9, end) < 6);
+      CHECK(max_away < 10);
+      CHECK(at_end < 0.5);
     }
-    CHECK(far <= flights / 10);
+    CHECK(grounded <= flights / 10);
   }
 
-  TEST_CASE("it lands softly in wind whichever sensor is noisy or jumps, and blames no other") {
+  TEST_CASE(
+      "it lands softly in wind whichever sensor is noisy or jumps, and blames another in one flight of 100 at most") {
     struct Failure {
       std::string sensor, kind;
       double by;
       LandingCause cause;
     };
     int flights = 0, wrong = 0;
-    double worst = 0;
+    double max_impact = 0;
     for (const Failure& f : {Failure{"imu", "noisy", 10, LandingCause::imu_lost},
                              {"sonar", "noisy", 10, LandingCause::sonar_lost},
                              {"laser_north", "noisy", 10, LandingCause::position_lost},
@@ -149,13 +160,14 @@ TEST_SUITE("tools/javiator_wind") {
                              {"sonar", "jumping", 0.25, LandingCause::sonar_lost},
                              {"laser_north", "jumping", 1, LandingCause::position_lost},
                              {"laser_east", "jumping", 1, LandingCause::position_lost},
-                             {"bmu", "jumping", 30, LandingCause::bmu_lost}})
+                             {"bmu", "jumping", 30, LandingCause::bmu_lost}}) {
+      if (tests::tries_less && f.sensor != "sonar") continue;
       for (std::uint64_t seed = 1; seed <= tests::how_many<std::uint64_t>(3, 50, 1); ++seed) {
         CAPTURE(f.sensor);
         CAPTURE(f.kind);
         CAPTURE(seed);
         const Flight flight = fly_in_wind(failing_at(8, f.sensor, f.kind, f.by), seed, 12, 20);
-        worst = std::max(worst, flight.impact());
+        max_impact = std::max(max_impact, flight.impact());
         CHECK(flight.last().state == FlightState::ground);
         ++flights;
         wrong += flight.last().cause == f.cause || flight.last().cause == LandingCause::none ? 0 : 1;
@@ -163,13 +175,17 @@ TEST_SUITE("tools/javiator_wind") {
         CHECK(flight.impact() < 0.5);
         CHECK(distance(flight, 8, 20) < 1);
       }
-    MESSAGE("meets the ground with " << worst << " m/s at most, " << wrong << " blame another");
+    }
+    MESSAGE("meets the ground with " << max_impact << " m/s at most, " << wrong << " blame another");
     CHECK(wrong <= flights / 100);
   }
 
-  TEST_CASE("10 Pa too much or too little of its pressure are blamed on that, not on its sonar, and it lands softly") {
+  TEST_CASE(
+      "10 Pa too much or too little of its pressure are blamed on that, but for one flight of 20 not on its sonar, and "
+      "it lands softly") {
     int flights = 0, wrong = 0;
-    for (const bool windy : {false, true})
+    for (const bool windy : {false, true}) {
+      if (tests::tries_less && !windy) continue;
       for (const double at : {9.0, 15.0})
         for (const double by : {10.0, -10.0})
           for (std::uint64_t seed = 1; seed <= tests::how_many<std::uint64_t>(3, 50, 1); ++seed) {
@@ -188,8 +204,9 @@ TEST_SUITE("tools/javiator_wind") {
             CHECK(flight.last().state == FlightState::ground);
             CHECK(flight.impact() < 0.5);
           }
+    }
+    MESSAGE(wrong << " of " << flights << " blame their sonar");
     CHECK(wrong <= flights / 20);
-    CHECK((wrong == 0 || tests::is_full()));
   }
 
   TEST_CASE("a payload that drops and a gust of 5 m/s, both by chance, end no flight, nor blow it away") {
