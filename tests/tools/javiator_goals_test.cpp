@@ -15,13 +15,13 @@ constexpr double degrees = 3.14159265358979323846 / 180;
 
 // How far it turned from one instant to another, as it leads from glimpse to glimpse.
 double turned(const Flight& flight, double from, double to) {
-  double turned = 0, max_turned = 0;
+  double turned = 0, max_turn = 0;
   for (std::size_t i = 1; i < flight.path.size(); ++i) {
     if (flight.path[i].time < from || flight.path[i].time > to) continue;
     turned += std::remainder(flight.path[i].yaw - flight.path[i - 1].yaw, 360 * degrees);
-    max_turned = std::max(max_turned, std::abs(turned));
+    max_turn = std::max(max_turn, std::abs(turned));
   }
-  return max_turned;
+  return max_turn;
 }
 
 // Hovers until it is sent at 10 s to an altitude, and 1.5 s later to a place 3 m away.

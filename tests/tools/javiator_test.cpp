@@ -181,7 +181,7 @@ TEST_SUITE("tools/javiator") {
 
   TEST_CASE("a range that is wrong by just less than it may jump changes the signals of hover by less than 40 %") {
     const std::string robostix = "distributers.robostix.link.parameters.", sonar = robostix + "failures.sonar.";
-    double min_share = 1, max_share = 1;
+    double min_signal = 1, max_signal = 1;
     for (const std::string by : {"0.079", "-0.079"})
       for (std::uint64_t seed = 1; seed <= tests::how_many<std::uint64_t>(5, 50, 1); ++seed) {
         CAPTURE(by);
@@ -201,17 +201,17 @@ TEST_SUITE("tools/javiator") {
             hover = (periods * hover + mean) / (periods + 1);
             ++periods;
           } else {
-            min_share = std::min(min_share, mean / hover);
-            max_share = std::max(max_share, mean / hover);
+            min_signal = std::min(min_signal, mean / hover);
+            max_signal = std::max(max_signal, mean / hover);
           }
         }
         CHECK(flight.furthest(&Glimpse::altitude, 1, 9, 14) < 0.03);
         CHECK(flight.last().state == tasks::FlightState::flying);
       }
-    MESSAGE("signals of " << min_share << " to " << max_share << " times those of hover");
-    CHECK(min_share < 0.9);  // it was heard
-    CHECK(min_share > 0.6);
-    CHECK(max_share < 1.4);
+    MESSAGE("signals of " << min_signal << " to " << max_signal << " times those of hover");
+    CHECK(min_signal < 0.9);  // it was heard
+    CHECK(min_signal > 0.6);
+    CHECK(max_signal < 1.4);
   }
 
   TEST_CASE("the V2 flies the same mission, and lands as softly") {
