@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "distributers/interfaces/typed.h"
@@ -16,7 +17,7 @@ using namespace jarol::distributers;
 using namespace std::chrono_literals;
 namespace imc = messages::imc;
 
-struct Heard : Holder {
+struct ToldHolder : Holder {
   void hold(int, const std::vector<Address>&) override {}
   void let_go() override {}
   bool set_steers_itself(bool steers_itself) override {
@@ -29,8 +30,8 @@ struct Heard : Holder {
 };
 
 // A submarine on a link that nobody has connected, and what its holder is told.
-struct Held {
-  Held() {
+struct HeldSubmarine {
+  HeldSubmarine() {
     auto link = std::make_unique<Link>(std::make_unique<UdpTransport>(tests::any, Address{}), imc::message_set(),
                                        LinkOptions{});
     link->hold_by(&holder);
@@ -48,7 +49,7 @@ struct Held {
     vehicle->receive(messages::refer_to(state));
   }
 
-  Heard holder;
+  ToldHolder holder;
   Typed<LauvVehicle>* vehicle = nullptr;
   std::unique_ptr<LinkedSystem> system;
 };
@@ -58,7 +59,7 @@ using Told = std::vector<bool>;
 
 TEST_SUITE("distributers/steers_itself") {
   TEST_CASE("the guardian is told once when a vehicle begins to steer itself, and once when it no longer does") {
-    Held held;
+    HeldSubmarine held;
     CHECK(held.told(0s) == Told{});
     held.report_loops(imc::CLoopsMask::DEPTH);
     CHECK(held.told(1s) == Told{true});
@@ -70,7 +71,7 @@ TEST_SUITE("distributers/steers_itself") {
   }
 
   TEST_CASE("it no longer does when it has not said so for 5 s, and when another vehicle is there") {
-    Held held;
+    HeldSubmarine held;
     held.report_loops(imc::CLoopsMask::DEPTH);
     CHECK(held.told(1s) == Told{true});
     CHECK(held.told(4999ms) == Told{});
@@ -82,7 +83,7 @@ TEST_SUITE("distributers/steers_itself") {
   }
 
   TEST_CASE("what the guardian could not be told it is told again") {
-    Held held;
+    HeldSubmarine held;
     held.holder.listens = false;
     held.report_loops(imc::CLoopsMask::DEPTH);
     CHECK(held.told(1s) == Told{true});
