@@ -17,7 +17,7 @@ class Holder {
   /// There is no way any more; the transport closes its descriptor after this.
   virtual void let_go() = 0;
   /// What is at the other end steers itself from now on, or no longer: meanwhile nothing is to be sent there. False: it
-  /// could not be told, and has to be again.
+  /// could not be reported, and has to be again.
   virtual bool set_steers_itself(bool steers_itself) = 0;
 };
 

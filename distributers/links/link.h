@@ -43,7 +43,7 @@ class Link {
   }
   /// From the next `connect` on it learns of the way to the peer; it outlives the link. None: null.
   void hold_by(Holder* holder) { transport_->holder = holder; }
-  /// The holder learns whether what is at the other end steers itself. False: it could not be told.
+  /// The holder learns whether what is at the other end steers itself. False: it could not be reported.
   bool set_steers_itself(bool steers_itself) {
     return transport_->holder == nullptr || transport_->holder->set_steers_itself(steers_itself);
   }

@@ -22,7 +22,6 @@ using distributers::LauvVehicle;
 using tasks::Alarm;
 using tasks::FinState;
 using tasks::Instruments;
-using test::Packet;
 using test::packets_of;
 
 distributers::LauvVehicleParameters parameters_of(const Graph& graph) {

@@ -61,9 +61,8 @@ constexpr double never = 1e9;
 
 TEST_SUITE("tools/javiator_wind") {
   TEST_CASE(
-      "without an IMU in 5 m/s of wind it is on its feet on the ground within 3 s but for one flight of 50, and meets "
-      "it "
-      "with less than 0.5 m/s in three flights of four") {
+      "without an IMU in 5 m/s of wind it stands within 3 s but for one flight of 50, and touches with less than "
+      "0.5 m/s in three of four") {
     int flights = 0, wrong = 0, hard = 0;
     double max_impact = 0, max_time = 0;
     for (const std::string kind : {"lost", "stuck"})
@@ -108,9 +107,8 @@ TEST_SUITE("tools/javiator_wind") {
 
   // gusts push it away where they are more than it may lean against (0.4 rad)
   TEST_CASE(
-      "in 8 m/s of wind with gusts of 2 m/s it is blown up to 6 m away, and back within 10 s: but one flight of ten "
-      "may "
-      "end on the ground") {
+      "in 8 m/s of wind with gusts of 2 m/s it is blown up to 6 m away and is back within 10 s, or, in one flight of "
+      "ten, ends on the ground") {
     constexpr double end = 39;
     const int flights = tests::how_many(6, 50, 1);
     int grounded = 0;

@@ -17,7 +17,7 @@ using namespace jarol::distributers;
 using namespace std::chrono_literals;
 namespace imc = messages::imc;
 
-struct ToldHolder : Holder {
+struct NotedHolder : Holder {
   void hold(int, const std::vector<Address>&) override {}
   void let_go() override {}
   bool set_steers_itself(bool steers_itself) override {
@@ -29,7 +29,7 @@ struct ToldHolder : Holder {
   bool listens = true;
 };
 
-// A submarine on a link that nobody has connected, and what its holder is told.
+// A submarine on a link that nobody has connected, and what is reported to its holder.
 struct HeldSubmarine {
   HeldSubmarine() {
     auto link = std::make_unique<Link>(std::make_unique<UdpTransport>(tests::any, Address{}), imc::message_set(),
@@ -39,7 +39,7 @@ struct HeldSubmarine {
     vehicle = made.get();
     system = std::make_unique<LinkedSystem>(std::move(link), std::move(made));
   }
-  std::vector<bool> told(Duration instant) {
+  std::vector<bool> reported_at(Duration instant) {
     system->reach(instant);
     return holder.take();
   }
@@ -49,47 +49,47 @@ struct HeldSubmarine {
     vehicle->receive(messages::refer_to(state));
   }
 
-  ToldHolder holder;
+  NotedHolder holder;
   Typed<LauvVehicle>* vehicle = nullptr;
   std::unique_ptr<LinkedSystem> system;
 };
 
-using Told = std::vector<bool>;
+using Reported = std::vector<bool>;
 }  // namespace
 
 TEST_SUITE("distributers/steers_itself") {
-  TEST_CASE("the guardian is told once when a vehicle begins to steer itself, and once when it no longer does") {
+  TEST_CASE("it is reported once when a vehicle begins to steer itself, and once when it no longer does") {
     HeldSubmarine held;
-    CHECK(held.told(0s) == Told{});
+    CHECK(held.reported_at(0s) == Reported{});
     held.report_loops(imc::CLoopsMask::DEPTH);
-    CHECK(held.told(1s) == Told{true});
+    CHECK(held.reported_at(1s) == Reported{true});
     held.report_loops(imc::CLoopsMask::DEPTH);
-    CHECK(held.told(2s) == Told{});
+    CHECK(held.reported_at(2s) == Reported{});
     held.report_loops(0);
-    CHECK(held.told(3s) == Told{false});
-    CHECK(held.told(4s) == Told{});
+    CHECK(held.reported_at(3s) == Reported{false});
+    CHECK(held.reported_at(4s) == Reported{});
   }
 
   TEST_CASE("it no longer does when it has not said so for 5 s, and when another vehicle is there") {
     HeldSubmarine held;
     held.report_loops(imc::CLoopsMask::DEPTH);
-    CHECK(held.told(1s) == Told{true});
-    CHECK(held.told(4999ms) == Told{});
-    CHECK(held.told(5s) == Told{false});
+    CHECK(held.reported_at(1s) == Reported{true});
+    CHECK(held.reported_at(4999ms) == Reported{});
+    CHECK(held.reported_at(5s) == Reported{false});
     held.report_loops(imc::CLoopsMask::DEPTH);
-    CHECK(held.told(6s) == Told{true});
+    CHECK(held.reported_at(6s) == Reported{true});
     held.vehicle->peer_changed();
-    CHECK(held.told(7s) == Told{false});
+    CHECK(held.reported_at(7s) == Reported{false});
   }
 
-  TEST_CASE("what the guardian could not be told it is told again") {
+  TEST_CASE("what could not be reported is reported again") {
     HeldSubmarine held;
     held.holder.listens = false;
     held.report_loops(imc::CLoopsMask::DEPTH);
-    CHECK(held.told(1s) == Told{true});
-    CHECK(held.told(2s) == Told{true});
+    CHECK(held.reported_at(1s) == Reported{true});
+    CHECK(held.reported_at(2s) == Reported{true});
     held.holder.listens = true;
-    CHECK(held.told(3s) == Told{true});
-    CHECK(held.told(4s) == Told{});
+    CHECK(held.reported_at(3s) == Reported{true});
+    CHECK(held.reported_at(4s) == Reported{});
   }
 }
