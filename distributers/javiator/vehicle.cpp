@@ -17,13 +17,17 @@ std::int16_t to_signal(double signal) {
 
 }  // namespace
 
-// Numbers wrap around; signals of another controller, or of a run before, say nothing about the order.
-bool JaviatorVehicle::is_late(std::uint16_t id) {
+// Signals of another controller, or of a run before, say nothing about the order.
+bool NewestAnswer::accept(std::uint16_t answered, std::uint16_t sent) {
   const auto is_after = [](std::uint16_t a, std::uint16_t b) { return static_cast<std::int16_t>(a - b) > 0; };
-  if (is_after(id, id_)) return false;
-  if (is_after(answered_, id)) return true;
-  answered_ = id;
-  return false;
+  if (is_after(answered, sent)) return true;
+  if (is_after(id, answered)) return false;
+  id = answered;
+  return true;
+}
+
+void NewestAnswer::keep_up(std::uint16_t sent) {
+  if (static_cast<std::uint16_t>(sent - id) > longest_delay) id = sent - longest_delay;
 }
 
 // Commands are numbered one by one, as signals are, but for those that a fault has held.
@@ -33,7 +37,7 @@ std::uint32_t JaviatorVehicle::number_of(std::uint16_t id) const {
 }
 
 void JaviatorVehicle::data(const javiator::JaviatorData& d) {
-  if (is_late(d.id)) return;
+  if (!answered_.accept(d.id, id_)) return;
   const bool waits = in.sensors.is_new;
   tasks::JaviatorSensors& s = in.sensors.renew();
   const auto has = [&](std::uint16_t bit) { return (d.flags & bit) != 0; };
@@ -63,15 +67,26 @@ void JaviatorVehicle::data(const javiator::JaviatorData& d) {
        .answered = number_of(d.id)};
 }
 
+void JaviatorVehicle::sonar_data(const javiator::SonarData& d) {
+  const bool is_doubled = in.sonars->readings > 0 && d.id == ranged_.id;
+  if (is_doubled || !ranged_.accept(d.id, id_)) return;
+  const auto metres = [](std::uint16_t counts) { return javiator::sonar_metres_per_count * counts; };
+  in.sonars = {.ranges = {metres(d.front), metres(d.right), metres(d.rear), metres(d.left)},
+               .readings = in.sonars->readings + 1};
+}
+
 void JaviatorVehicle::send_motors(const tasks::MotorCommand& motors, messages::Receiver& system) {
   // more than once: the link may lose it, and a Robostix that was started anew is locked
   const bool repeats = (id_ + 1) % repeat_every == 0;
+  if (parameters_.each_sonar && (id_ == 0 || repeats))
+    system.receive(messages::refer_to(javiator::EnSensors{javiator::EnSensors::Enable::EACH_SONAR}));
   if (motors.unlocked && (!unlocked_ || repeats)) system.receive(messages::refer_to(javiator::SwitchState{}));
   if (!motors.unlocked && (unlocked_ || repeats)) system.receive(messages::refer_to(javiator::ShutDown{}));
   unlocked_ = motors.unlocked;
   ++id_;
   number_ = motors.number;
-  if (static_cast<std::uint16_t>(id_ - answered_) > longest_delay) answered_ = id_ - longest_delay;
+  answered_.keep_up(id_);
+  ranged_.keep_up(id_);
   const auto& s = motors.signals;
   system.receive(messages::refer_to(
       javiator::MotorSignals{to_signal(s[0]), to_signal(s[1]), to_signal(s[2]), to_signal(s[3]), id_}));

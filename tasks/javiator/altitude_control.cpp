@@ -7,6 +7,7 @@
 #include "graph/math/geometry.h"
 #include "tasks/add_task.h"
 #include "tasks/javiator/altitude_phases.h"
+#include "tasks/javiator/foot_stand.h"
 
 namespace jarol::tasks {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 // It leans as far as its altitude has room for: the ground carries a part of it by one foot.
 bool stands_on_foot(const AltitudeControl::Param& p, const FlightEstimate& e) {
   const double lean = std::max(std::abs(e.roll), std::abs(e.pitch));
-  return e.altitude_known && lean > p.ground.level && e.altitude < p.foot * std::sin(lean) + p.ground.near;
+  return e.altitude_known && lean > p.ground.level && may_stand({p.foot, p.ground.near}, e.roll, e.pitch, e.altitude);
 }
 
 // sag of the battery, flow through the rotors, the ground: whatever thrust is lost or gained is felt at once
@@ -40,16 +41,24 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   if (!state.lifted) return leave_ground(step);
   out.lift.stands = false;
   const bool quick = e.lean_known && e.altitude_known;
-  if (!e.rates_known && !quick) return sink_blind(step);
+  if (!e.rates_known && !quick) {
+    state.foot_cut = 0;
+    return sink_blind(step);
+  }
 
-  state.blind_trim = 0;
-  // on its feet nothing shows how it leans
-  const bool touches = quick && e.altitude < p.quick.contact && d.state == FlightState::landing;
-  state.blind_cut = touches ? state.blind_cut + p.quick.cut * dt : 0;
+  state.blind_trim = state.blind_cut = 0;
+  // on its feet lasers do not show how it leans
+  const QuickLanding& q = e.tilt_known ? p.by_sonars : p.quick;
+  const bool may_stand = e.tilt_known ? e.touches : e.altitude < q.contact;
+  const bool touches = quick && may_stand && d.state == FlightState::landing;
+  if (touches)
+    state.foot_cut = std::min(state.foot_cut + q.cut * dt, p.limits.max_thrust);
+  else
+    state.foot_cut = std::max(state.foot_cut - q.back * dt, 0.0);
   // a pilot who flies it to the ground wants it to stand there, not to hover with one foot on it
   const bool settling = settles(step), comes_down = d.state == FlightState::landing || settling;
   if (comes_down) {
-    descend(step, quick);
+    descend(step, quick ? &q : nullptr);
   } else {
     state.landing = state.on_foot = 0;
     approach(state.z, d.altitude, p.approach, dt);
@@ -62,12 +71,12 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   double& thrust = out.lift.thrust;
   const double error = state.z.place - e.altitude;
   state.sunk = limited(state.sunk + p.ki * error * dt, p.limits.sunk);
-  const double wanted =
-      state.z.demand + (quick ? p.quick.kp : p.kp) * error + p.kd * (state.z.speed - e.climb) + state.sunk;
+  const double kp = quick ? q.kp : p.kp, kd = quick ? q.kd : p.kd;
+  const double wanted = state.z.demand + kp * error + kd * (state.z.speed - e.climb) + state.sunk;
   // where it may stand one wrong range must not throw it up again
-  const double a = touches ? std::min(wanted, p.quick.up) : wanted;
+  const double a = touches ? std::min(wanted, q.up) : wanted;
   const double upright = std::max(down_in_body(e.roll, e.pitch)[2], p.limits.min_upright);
-  thrust = std::clamp(state.trim + (1 + a / gravity) / upright - 1 - state.blind_cut,
+  thrust = std::clamp(state.trim + (1 + a / gravity) / upright - 1 - state.foot_cut,
                       touches ? 0.0 : p.limits.min_thrust, p.limits.max_thrust);
   state.expected += (thrust - state.trim - state.expected) * dt / (p.lift_lag + dt);
   // it feels more than the rotors give, or is still: the ground carries

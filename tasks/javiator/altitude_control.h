@@ -10,9 +10,11 @@
 
 namespace jarol::tasks {
 
-/// A landing that is over before gusts turn it: nobody feels them, and lasers show a lean towards their walls late.
+/// A landing without an IMU, which is over before gusts turn it: nobody feels them, and lasers show a lean towards
+/// their walls late, sonars 22 times a second.
 struct QuickLanding {
   double kp = 20;
+  double kd = 7;
   double gain = 10;
   double descent = 1.6;
   double acceleration = 5;
@@ -22,26 +24,31 @@ struct QuickLanding {
   double drift = 0.7;
   double contact = 0.045;
   double cut = 1.4;
+  double back = 1000;
   double up = 4;
 
   static constexpr auto fields() {
     using Q = QuickLanding;
     return describe(
         field<&Q::kp>("1/s^2", "acceleration per error of altitude"),
+        field<&Q::kd>("1/s", "acceleration per error of climb"),
         field<&Q::gain>("1/s", "acceleration per error of speed"), field<&Q::descent>("m/s", "at most"),
         field<&Q::acceleration>("m/s^2", "into it, at most"), field<&Q::brake>("m/s^2", "out of it").in(0, 100),
         field<&Q::low>("m", "altitude at which it has slowed to touch_speed"),
         field<&Q::touch_speed>("m/s", "of its last part"),
         field<&Q::drift>("m/s", "to the side, beyond which it descends more slowly, at twice of it by touch_speed")
             .in(0.01, 100),
-        field<&Q::contact>("m", "altitude from which on thrust is taken back: a foot may stand"),
+        field<&Q::contact>("m",
+                           "altitude from which on thrust is taken back: a foot may stand; where sonars show how it "
+                           "leans, they show when"),
         field<&Q::cut>("1/s", "at which it is: it settles on its other feet"),
+        field<&Q::back>("1/s", "at which it is given back where none stands; 1000: at once").in(0, 1000),
         field<&Q::up>("m/s^2", "that it demands there, at most: one wrong range must not throw it up again")
-            .in(0, 100));
+            .in(-100, 100));
   }
 };
 
-/// It comes down without an IMU, and no laser shows how it leans (sink_blind in altitude_phases.h).
+/// It comes down without an IMU, and neither sonars nor lasers show how it leans (sink_blind in altitude_phases.h).
 struct BlindSinking {
   double gain = 0.15;
   double ki = 0.1;
@@ -122,9 +129,10 @@ struct AltitudeLimits {
 /// Altitude z (m) and climb (m/s) are positive up, from the place of take-off; thrust is in parts of that of hover. In
 /// flight, with z.place, z.speed and z.demand of the approach to a commanded altitude (approach.h) or of a landing:
 ///   a      = z.demand + kp (z.place - altitude) + kd (z.speed - climb) + sunk          m/s^2
-///            in a quick landing with quick.kp, and on contact at most quick.up
+///            in a quick landing with its own kp and kd (quick, or by_sonars), and on contact at most its `up`
 ///   sunk_dot     = ki (z.place - altitude), |sunk| <= limits.sunk
-///   thrust = trim + (1 + a / g) / max(cos(phi) cos(theta), min_upright) - 1 - blind_cut
+///   thrust = trim + (1 + a / g) / max(cos(phi) cos(theta), min_upright) - 1 - foot_cut
+///   foot_cut_dot = `cut` of the quick landing where a foot may stand, up to max_thrust; else -back, down to 0
 ///   trim_dot     = lift_bandwidth (1 + expected - lift / g)
 ///   expected_dot = (thrust - trim - expected) / lift_lag
 /// phi and theta are roll and pitch, lift the specific force that the accelerometer feels upwards along the body's axis
@@ -162,6 +170,14 @@ struct AltitudeControl {
     OnGround ground{};
     BlindSinking blind{};
     QuickLanding quick{};
+    QuickLanding by_sonars{.kp = 16.5,
+                           .kd = 12.8,
+                           .low = 0.116,
+                           .touch_speed = 0.13,
+                           .drift = 0.61,
+                           .cut = 1.16,
+                           .back = 0.11,
+                           .up = -0.5};
     static constexpr auto fields() {
       using P = Param;
       return describe(
@@ -190,8 +206,9 @@ struct AltitudeControl {
               .in(0.01, 100),
           field<&P::mean_time>("s", "over which that mean is").in(0.01, 100), field<&P::limits>(),
           field<&P::ground>("", "how it knows that it stands there, or leaves it"),
-          field<&P::blind>("", "when the IMU is lost, and no laser shows how it leans"),
-          field<&P::quick>("", "when the IMU is lost, but lasers show how it leans"));
+          field<&P::blind>("", "when the IMU is lost, and nothing shows how it leans"),
+          field<&P::quick>("", "when the IMU is lost, but lasers show how it leans"),
+          field<&P::by_sonars>("", "when the IMU is lost, but sonars do"));
     }
   };
   struct In {
@@ -207,7 +224,7 @@ struct AltitudeControl {
     Approach z{};
     double trim = 0, mean_trim = 0;
     double expected = 0;
-    double sunk = 0, blind_trim = 0, blind_cut = 0, aloft = 0;
+    double sunk = 0, blind_trim = 0, blind_cut = 0, foot_cut = 0, aloft = 0;
     double landing = 0, on_foot = 0;
     bool lifted = false;
     static constexpr auto fields() {
@@ -218,6 +235,7 @@ struct AltitudeControl {
                       field<&S::sunk>("m/s^2", "acceleration that makes up for a lasting error of altitude"),
                       field<&S::blind_trim>("", "correction of the mean, learnt blind"),
                       field<&S::blind_cut>("", "thrust that is taken back, blind"),
+                      field<&S::foot_cut>("", "thrust that is taken back where a foot may stand, without an IMU"),
                       field<&S::aloft>("s", "over which that mean is, up to 1: 0.4 of hover's at first"),
                       field<&S::landing>("s", "since it began to land"), field<&S::on_foot>("s", "of that on one foot"),
                       field<&S::lifted>("", "it has left the ground"));

@@ -35,7 +35,7 @@ void leave_ground(const AltitudeStep& step) {
   // what lifts it is more than what carries it
   state.mean_trim = std::min(state.trim, 1.0);
   state.aloft = p.first_aloft;
-  state.blind_trim = state.blind_cut = 0;
+  state.blind_trim = state.blind_cut = state.foot_cut = 0;
   lift.thrust = state.trim;
 }
 
@@ -60,14 +60,14 @@ bool settles(const AltitudeStep& step) {
   return d.state == FlightState::flying && d.altitude <= p.ground.altitude && e.altitude < p.low;
 }
 
-void descend(const AltitudeStep& step, bool quick) {
+void descend(const AltitudeStep& step, const QuickLanding* quick) {
   const auto& [p, e, d, dt, state, lift] = step;
   state.landing += dt;
   const double overdue = std::clamp(p.overdue * (state.landing - p.landing_time), 0.0, p.touch_speed);
   // an altitude that nothing confirms may be wrong
   const bool is_high = e.altitude > p.high && e.altitude_known && e.pressure_known;
-  if (quick) {
-    const QuickLanding& q = p.quick;
+  if (quick != nullptr) {
+    const QuickLanding& q = *quick;
     const double way = std::max(e.altitude - q.low, 0.0);
     const double fast = std::min(q.descent, std::sqrt(q.touch_speed * q.touch_speed + 2 * q.brake * way));
     // a helicopter that still flies to the side would trip over its feet

@@ -25,7 +25,7 @@ void spin_up(const AltitudeStep& step);
 /// Thrust grows at `lift_rate` until the ground is left, and is learnt on the way; it shrinks where it is to stay.
 void leave_ground(const AltitudeStep& step);
 
-/// The IMU is lost, and no laser shows how it leans:
+/// The IMU is lost, and neither sonars nor lasers show how it leans:
 ///   thrust = mean_trim - margin + blind_trim - blind_cut + gain excess,   excess = -speed - climb,
 ///   blind_trim_dot = ki excess
 /// by the climb that a sonar measures; where none does, only a blind_trim below 0 is kept. blind_cut grows on the
@@ -39,8 +39,8 @@ bool settles(const AltitudeStep& step);
 ///   z.demand = w (-speed - z.speed), bounded,   z.speed_dot = z.demand,   z.place_dot = z.speed
 ///   w = descent_gain: speed = descent above `high`, if altitude and pressure are known, and touch_speed + late below,
 ///                     late = overdue (landing - landing_time) from 0 to touch_speed
-///   quick, w = gain:  speed = part sqrt(touch_speed^2 + 2 brake (altitude - low)), up to part descent, and at least
-///                     touch_speed; part = 2 - hypot(v_x, v_y) / drift from 0 to 1
-void descend(const AltitudeStep& step, bool quick);
+///   quick:            w = its gain, speed = part sqrt(touch_speed^2 + 2 brake (altitude - low)), up to part descent,
+///                     at least touch_speed; part = 2 - hypot(v_x, v_y) / drift from 0 to 1
+void descend(const AltitudeStep& step, const QuickLanding* quick);
 
 }  // namespace jarol::tasks

@@ -77,12 +77,14 @@ void predict(LeanGuess& guess, const Matrix& F, double drag, double turning, dou
   guess.wind = mean(4);
 }
 
-void spread(LeanGuess& guess, const BlindObserver::Param& p, const Matrix& F, double dt) {
+void spread(LeanGuess& guess, const BlindObserver::Param& p, const Matrix& F, bool touches, double dt) {
   Eigen::Map<Matrix> P = covariance_of(guess);
   const Matrix FP = F.lazyProduct(P);
   P = FP.lazyProduct(F.transpose());
-  P(1, 1) += p.force_noise * p.force_noise * dt;
-  P(3, 3) += p.torque_noise * p.torque_noise * dt;
+  const double force = touches ? p.ground_force_noise : p.force_noise;
+  const double torque = touches ? p.ground_torque_noise : p.torque_noise;
+  P(1, 1) += force * force * dt;
+  P(3, 3) += torque * torque * dt;
   P(4, 4) += 2 * p.gusts * p.gusts / p.gust_time * dt;
 }
 
@@ -98,9 +100,33 @@ void average(LeanAxis& axis) {
   axis.mean = mean;
 }
 
+// By what a measurement z of variance S, with z = H s, differs from what it expects; PH is P H^T.
+void update(LeanGuess& guess, const Vector& PH, double variance, double residual) {
+  const Vector gain = PH / variance;
+  guess.place += gain(0) * residual;
+  guess.speed += gain(1) * residual;
+  guess.lean += gain(2) * residual;
+  guess.rate += gain(3) * residual;
+  guess.wind += gain(4) * residual;
+  covariance_of(guess) -= gain.lazyProduct(PH.transpose());
+  guess.weight *= std::exp(-0.5 * residual * residual / variance) / std::sqrt(variance);
+}
+
+template <class Correct>
+void correct_each(LeanAxis& axis, const Correct& correct) {
+  constexpr double min_weight = 1e-12;  // no guess is given up
+  double sum = 0;
+  for (LeanGuess& guess : axis.guesses) {
+    correct(guess);
+    guess.weight = std::max(guess.weight, min_weight);
+    sum += guess.weight;
+  }
+  for (LeanGuess& guess : axis.guesses) guess.weight /= sum;
+}
+
 // A place is measured by a ray that leans as the vehicle does; the one given is that of the mean's lean.
 void correct(LeanGuess& guess, const PlaceFix& fix, double taken, const BlindObserver::Param& p) {
-  Eigen::Map<Matrix> P = covariance_of(guess);
+  const Eigen::Map<Matrix> P = covariance_of(guess);
   const double off = guess.lean - taken;
   const double slope = fix.slope + fix.range * off;
   const double place = fix.place + (fix.slope + 0.5 * fix.range * off) * off;
@@ -109,31 +135,48 @@ void correct(LeanGuess& guess, const PlaceFix& fix, double taken, const BlindObs
   const double bend = std::abs(fix.range) * P(2, 2);
   const double noise = std::hypot(p.range_noise, p.yaw_noise * fix.skew);
   const double variance = PH(0) - slope * PH(2) + noise * noise + 0.5 * bend * bend;
-  const Vector gain = PH / variance;
-  const double residual = place + std::copysign(0.5 * bend, fix.range) - guess.place;
-  guess.place += gain(0) * residual;
-  guess.speed += gain(1) * residual;
-  guess.lean += gain(2) * residual;
-  guess.rate += gain(3) * residual;
-  guess.wind += gain(4) * residual;
-  P -= gain.lazyProduct(PH.transpose());
-  guess.weight *= std::exp(-0.5 * residual * residual / variance) / std::sqrt(variance);
+  update(guess, PH, variance, place + std::copysign(0.5 * bend, fix.range) - guess.place);
 }
 
 void correct(LeanAxis& axis, const PlaceFix& fix, const BlindObserver::Param& p) {
-  constexpr double min_weight = 1e-12;  // no guess is given up
   if (!fix.is_new) return;
-  double sum = 0;
-  for (LeanGuess& guess : axis.guesses) {
-    correct(guess, fix, axis.mean.lean, p);
-    guess.weight = std::max(guess.weight, min_weight);
-    sum += guess.weight;
-  }
-  for (LeanGuess& guess : axis.guesses) guess.weight /= sum;
+  correct_each(axis, [&](LeanGuess& guess) { correct(guess, fix, axis.mean.lean, p); });
   axis.since = 0;
 }
 
+void correct(LeanAxis& axis, double lean, const TiltBySonars& sonars) {
+  correct_each(axis, [&](LeanGuess& guess) {
+    const Eigen::Map<Matrix> P = covariance_of(guess);
+    const Vector PH = P.col(2) - sonars.age * P.col(3);
+    const double variance = PH(2) - sonars.age * PH(3) + sonars.noise * sonars.noise;
+    update(guess, PH, variance, lean - (guess.lean - sonars.age * guess.rate));
+  });
+}
+
 void follow(double& mean, double value, double part) { mean += part * (value - mean); }
+
+// Sonars show how it leans; while the IMU does, by how much they differ.
+void look_down(const BlindObserver::Param& p, const BlindObserver::In& in, double dt, BlindObserver::State& state) {
+  const FlightEstimate& e = in.estimate;
+  SonarLevel& level = state.level;
+  level.since += dt;
+  if (in.sonars.readings == level.last.readings) return;
+  level.repeats = in.sonars.ranges == level.last.ranges ? level.repeats + 1 : 0;
+  level.last = in.sonars;
+  const std::optional<Tilt> tilt = find_tilt(p.sonars, in.sonars);
+  if (!tilt || !e.altitude_known || level.repeats >= p.sonars.repeats) return;
+  if (!e.rates_known) {
+    const Vector2d lean = Rotation2Dd(state.heading) * Vector2d(level.pitch - tilt->pitch, tilt->roll - level.roll);
+    correct(state.x, lean.x(), p.sonars);
+    correct(state.y, lean.y(), p.sonars);
+  } else if (e.rates_age == 0 && e.attitude_known) {
+    const double part = level.learnt ? std::min(level.since, p.sonars.patience) / p.sonars.mean_time : 1;
+    level.learnt = true;
+    follow(level.roll, tilt->roll - (e.roll - p.sonars.age * e.p), part);
+    follow(level.pitch, tilt->pitch - (e.pitch - p.sonars.age * e.q), part);
+  }
+  level.since = 0;
+}
 
 // Demands as they are felt, one period late and through the rotors' lag.
 void feel(BlindObserver::State& state, double lag, double dt) {
@@ -182,6 +225,7 @@ void BlindObserver::run(const Param& p, const Tick& tick, const In& in, State& s
     correct(state.x, e.fix_x, p);
     correct(state.y, e.fix_y, p);
   }
+  look_down(p, in, dt, state);
   state.is_blind = !e.rates_known;
   feel(state, p.lag, dt);
   const double spin = std::sqrt(std::max(state.felt_thrust, 0.0) / std::max(state.mean_thrust, p.min_thrust));
@@ -196,7 +240,7 @@ void BlindObserver::run(const Param& p, const Tick& tick, const In& in, State& s
     if (!state.is_blind) return predict(axis.mean, F, spin * axis.drag, torque, dt);
     for (LeanGuess& guess : axis.guesses) {
       predict(guess, F, spin * axis.drag, torque, dt);
-      spread(guess, p, F, dt);
+      spread(guess, p, F, e.touches, dt);
     }
     average(axis);
   };
@@ -210,6 +254,8 @@ void BlindObserver::run(const Param& p, const Tick& tick, const In& in, State& s
   state.last = in.turn;
   state.last_thrust = in.lift.thrust;
 
+  const bool tilt_known = state.level.since < p.sonars.patience;
+  const bool by_lasers = !state.turns && state.x.since < p.patience && state.y.since < p.patience;
   const Rotation2Dd to_body(-state.heading);
   const Vector2d lean = to_body * Vector2d(state.x.mean.lean, state.y.mean.lean);
   const Vector2d rate = to_body * Vector2d(state.x.mean.rate, state.y.mean.rate);
@@ -226,7 +272,9 @@ void BlindObserver::run(const Param& p, const Tick& tick, const In& in, State& s
                 .drag_x = spin * state.x.drag,
                 .drag_y = spin * state.y.drag,
                 .lift = lift,
-                .known = !state.turns && state.x.since < p.patience && state.y.since < p.patience};
+                .known = tilt_known || by_lasers,
+                .tilt_known = tilt_known,
+                .turns = state.turns};
 }
 
 template void add_task<BlindObserver>(Registry&);

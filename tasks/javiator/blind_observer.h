@@ -1,4 +1,4 @@
-// How the helicopter leans, without its IMU: it is pushed where it leans, and the lasers see where it goes.
+// How the helicopter leans, without its IMU: sonars show it, and it is pushed where it leans, which the lasers see.
 #pragma once
 
 #include <array>
@@ -6,6 +6,7 @@
 
 #include "graph/math/geometry.h"
 #include "graph/task.h"
+#include "tasks/javiator/sonar_tilt.h"
 #include "tasks/values/javiator.h"
 
 namespace jarol::tasks {
@@ -18,7 +19,7 @@ namespace jarol::tasks {
 ///   F = | 0  0            1 - k h          dt - m h        n h          |   n = spin hub
 ///       | 0  -n dt        -k dt            1 - m dt        n dt         |
 ///       | 0  0            0                0               1 - dt / gust_time |
-///   Q = diag(0, force_noise^2, 0, torque_noise^2, 2 gusts^2 / gust_time)
+///   Q = diag(0, force_noise^2, 0, torque_noise^2, 2 gusts^2 / gust_time); where a foot may stand, that of the ground
 /// (a, m/s^2: drag in the mean wind, as last felt, times spin; t, rad/s^2: what the demand turns it by, and what turned
 /// it besides, as last felt, times spin; lift: specific force, m/s^2; k, 1/s^2: by which the ground effect rights it;
 /// spin: speed of the rotors, the root of the thrust felt by its mean when the IMU was lost). A place z that a laser
@@ -26,6 +27,8 @@ namespace jarol::tasks {
 ///   H = [1 0 -slope' 0 0],   slope' = slope + range off,   z' = z + (slope + range off / 2) off + bend / 2
 ///   bend = range P_33 (the second-order term),   S = H P H^T + range_noise^2 + (yaw_noise skew)^2 + bend^2 / 2
 ///   K = P H^T / S,   s += K (z' - place),   P -= K H P,   weight *= e^(-(z' - place)^2 / 2S) / sqrt(S)
+/// A lean z that sonars measure, of `age` ago:
+///   H = [0 0 1 -age 0],   S = H P H^T + noise^2,   K, s, P and weight as above, by z - (lean - age rate)
 struct LeanGuess {
   double weight = 0;
   double place = 0, speed = 0, lean = 0, rate = 0, wind = 0;
@@ -73,14 +76,31 @@ struct BlindStart {
   }
 };
 
+/// What ranges of sonars differ by from the IMU while it reports: level ground and its trim are two things.
+struct SonarLevel {
+  SonarRanges last{};
+  std::uint32_t repeats = 0;
+  bool learnt = false;
+  double roll = 0, pitch = 0, since = 1e9;
+
+  static constexpr auto fields() {
+    using S = SonarLevel;
+    return describe(field<&S::last>("", "that they reported"), field<&S::repeats>("", "of the same ranges"),
+                    field<&S::learnt>("", "what follows"),
+                    field<&S::roll>("rad", "that they show more than the IMU, averaged"), field<&S::pitch>("rad"),
+                    field<&S::since>("s", "they showed how it leans"));
+  }
+};
+
 /// While the IMU reports, the observer begins anew each period with what is known then. Without it, it turns by what
 /// the rotors are sent and is corrected by the lasers: it is pushed where it leans, so lean, rate and wind follow from
 /// places alone. A ray that looks down is longer for a lean towards its wall, as if it had moved away: such a lean
 /// shows late, one away from the wall at once. As it is longer for either, several guesses are kept, each a Kalman
 /// filter (Gelb, "Applied Optimal Estimation", 1974, section 4.2, with the second-order term of section 6.1 for the
-/// ray), whose mean is taken: a Gaussian sum (Alspach and Sorenson 1972). Yaw nobody sees: it is that of the model.
+/// ray), whose mean is taken: a Gaussian sum (Alspach and Sorenson 1972). Where each sonar reports its range, they show
+/// the lean itself (sonar_tilt.h), less what they showed while the IMU did. Yaw nobody sees: it is that of the model.
 struct BlindObserver {
-  static constexpr std::string_view summary = "knows roll and pitch by the lasers when the IMU is lost";
+  static constexpr std::string_view summary = "knows roll and pitch by sonars and lasers when the IMU is lost";
   struct Param {
     double effect = 153;
     double damping = 3.9;
@@ -99,11 +119,14 @@ struct BlindObserver {
     double gust_time = 1;
     double force_noise = 0.05;
     double torque_noise = 0.1;
+    double ground_force_noise = 0.5;
+    double ground_torque_noise = 2.5;
     double yaw_noise = 0.02;
     double turn_limit = 0.1;
     double patience = 0.3;
     double min_thrust = 0.1;
     BlindStart start{};
+    TiltBySonars sonars{};
     static constexpr auto fields() {
       using P = Param;
       return describe(
@@ -122,30 +145,37 @@ struct BlindObserver {
           field<&P::gusts>("m/s", "of the air"), field<&P::gust_time>("s", "of gusts").in(0.02, 1000),
           field<&P::force_noise>("m/s^2/sqrt(Hz)", "density of all else"),
           field<&P::torque_noise>("rad/s^2/sqrt(Hz)", "density of all else"),
+          field<&P::ground_force_noise>("m/s^2/sqrt(Hz)", "density of force_noise where a foot may stand"),
+          field<&P::ground_torque_noise>("rad/s^2/sqrt(Hz)", "of torque_noise there"),
           field<&P::yaw_noise>("rad", "standard deviation of the yaw, which nobody measures"),
           field<&P::turn_limit>("rad/s", "of yaw when the IMU is lost, beyond which walls are lost, too"),
           field<&P::patience>("s", "without a laser that sees along an axis before its lean is unknown"),
           field<&P::min_thrust>(
               "", "least mean thrust demanded, in parts of that of hover, by which the speed of the rotors is reckoned")
               .in(0.01, 1),
-          field<&P::start>("", "what is known when the IMU is lost"));
+          field<&P::start>("", "what is known when the IMU is lost"), field<&P::sonars>("", "that show how it leans"));
     }
   };
   struct In {
     FlightEstimate estimate{};
     TurnDemand turn{};
     LiftDemand lift{};
-    static constexpr auto fields() { return describe(field<&In::estimate>(), field<&In::turn>(), field<&In::lift>()); }
+    SonarRanges sonars{};
+    static constexpr auto fields() {
+      return describe(field<&In::estimate>(), field<&In::turn>(), field<&In::lift>(),
+                      field<&In::sonars>("", "of each, where they are reported"));
+    }
   };
   struct State {
     LeanAxis x{}, y{};
+    SonarLevel level{};
     TurnDemand felt{}, last{};
     double mean_yaw = 0, p = 0, q = 0, heading = 0, yaw = 0, yaw_rate = 0;
     bool turns = false, is_blind = false;
     double mean_thrust = 1, last_thrust = 1, felt_thrust = 1, lift = gravity;
     static constexpr auto fields() {
       using S = State;
-      return describe(field<&S::x>(), field<&S::y>(), field<&S::felt>("", "demand, by now"),
+      return describe(field<&S::x>(), field<&S::y>(), field<&S::level>(), field<&S::felt>("", "demand, by now"),
                       field<&S::last>("", "demand, of the period before"), field<&S::mean_yaw>("", "demand"),
                       field<&S::p>("rad/s", "as last felt"), field<&S::q>("rad/s"),
                       field<&S::heading>("rad", "from north"), field<&S::yaw>("rad"), field<&S::yaw_rate>("rad/s"),

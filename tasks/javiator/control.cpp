@@ -19,9 +19,20 @@ struct Held {
   double place, speed, drag;
 };
 
-double hold(const PositionControl::Param& p, const Approach& a, const Held& is, bool blind, double& trim, double dt) {
+struct HoldGains {
+  double kp, kd;
+};
+
+HoldGains gains_of(const PositionControl::Param& p, const FlightEstimate& e) {
+  if (e.tilt_known) return {p.by_sonars.kp, p.by_sonars.kd};
+  if (e.lean_known) return {p.blind_kp, p.blind_kd};
+  return {p.kp, p.kd};
+}
+
+double hold(const PositionControl::Param& p, const HoldGains& gains, const Approach& a, const Held& is, double& trim,
+            double dt) {
   trim = limited(trim + p.ki * (a.place - is.place) * dt, p.max_trim);
-  const double kp = blind ? p.blind_kp : p.kp, kd = blind ? p.blind_kd : p.kd;
+  const auto [kp, kd] = gains;
   return a.demand + kp * (a.place - is.place) + kd * (a.speed - is.speed) - is.drag + trim;
 }
 
@@ -65,14 +76,20 @@ void PositionControl::run(const Param& p, const Tick& tick, const In& in, State&
     out.goal.pitch = limited(-std::atan((c * a_x + s * a_y) / gravity), p.lean_limit);
   };
 
+  const auto level = [&] {
+    out.goal.roll -= out.goal.roll * dt / p.stand_time;
+    out.goal.pitch -= out.goal.pitch * dt / p.stand_time;
+  };
+
   // level where it stands, not so fast that its feet slap
   if (d.stands) {
     state.holding = false;
-    out.goal.roll -= out.goal.roll * dt / p.stand_time;
-    out.goal.pitch -= out.goal.pitch * dt / p.stand_time;
+    level();
     out.goal.yaw = e.yaw;
     return;
   }
+  // the ground moves it now, and what is known of its place and speed is worth little
+  if (d.state == FlightState::landing && e.touches) return level();
   // landing without a place it brakes by what it still knows of its speed
   if (d.state == FlightState::landing && !d.hold_position) {
     state.holding = false;
@@ -97,12 +114,12 @@ void PositionControl::run(const Param& p, const Tick& tick, const In& in, State&
   state.holding = true;
   approach(state.x, d.x, p.approach, dt);
   approach(state.y, d.y, p.approach, dt);
-  const bool blind = e.lean_known;
-  const double a_x = hold(p, state.x, {e.x, e.v_x, state.drag_x}, blind, state.trim_x, dt);
-  const double a_y = hold(p, state.y, {e.y, e.v_y, state.drag_y}, blind, state.trim_y, dt);
+  const HoldGains gains = gains_of(p, e);
+  const double a_x = hold(p, gains, state.x, {e.x, e.v_x, state.drag_x}, state.trim_x, dt);
+  const double a_y = hold(p, gains, state.y, {e.y, e.v_y, state.drag_y}, state.trim_y, dt);
   lean(a_x, a_y);
-  if (!blind || d.state != FlightState::landing) return;
-  const double part = lean_part(p.touch, e.altitude);
+  if (!e.lean_known || d.state != FlightState::landing) return;
+  const double part = lean_part(e.tilt_known ? p.by_sonars.touch : p.touch, e.altitude);
   out.goal.roll *= part;
   out.goal.pitch *= part;
 }
@@ -111,7 +128,7 @@ void AttitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   const FlightEstimate& e = in.estimate;
   const double dt = seconds(tick.period);
   // blind, it turns level as it would by its model, and keeps what holds it so: the rotors damp what is left
-  if (!e.rates_known && !(e.lean_known && e.altitude >= p.contact)) {
+  if (!e.rates_known && !e.tilt_known && !(e.lean_known && e.altitude >= p.contact)) {
     const auto level = [&](const TurnGains& g, TurnModel& model, double goal) {
       return turn(g, model, goal, model.angle, model.rate, dt);
     };

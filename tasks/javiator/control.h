@@ -32,17 +32,32 @@ struct BlindTouch {
   }
 };
 
+/// How it holds its place without an IMU, when sonars show how it leans.
+struct BlindHold {
+  double kp = 1.7;
+  double kd = 3.6;
+  BlindTouch touch{.lean = 0.66, .low = 0.037, .over = 0.033};
+
+  static constexpr auto fields() {
+    using B = BlindHold;
+    return describe(field<&B::kp>("1/s^2", "acceleration per error of place"),
+                    field<&B::kd>("1/s", "acceleration per error of speed"),
+                    field<&B::touch>("", "how it touches the ground"));
+  }
+};
+
 /// Where it holds a place it follows an approach to it (approach.h), with a_d the acceleration that this demands:
 ///   a      = a_d + kp (x_d - x) + kd (v_d - v) - drag + trim           m/s^2, for north and east alike
 ///   trim_dot = ki (x_d - x),                                           |trim| <= max_trim
 ///   drag_dot = (drag felt - drag) / drag_time
 ///   phi_d   = atan((cos(psi) a_east - sin(psi) a_north) / g),          |phi_d| <= lean_limit
 ///   theta_d = -atan((cos(psi) a_north + sin(psi) a_east) / g),         |theta_d| <= lean_limit
-/// (a thrust that carries the weight, leaning so, accelerates it by a). Without an IMU blind_kp and blind_kd are the
-/// gains, and a landing leans less near the ground: by (1 - touch.lean) less from touch.over above touch.low down to
-/// that. A landing without a place brakes: a = -v - drag. By hand the pilot's roll and pitch are meant from the heading
-/// of take-off: phi_d = roll cos(yaw) + pitch sin(yaw), theta_d = pitch cos(yaw) - roll sin(yaw). Standing it levels:
-/// phi_d_dot = -phi_d / stand_time, and theta_d alike.
+/// (a thrust that carries the weight, leaning so, accelerates it by a). Without an IMU kp and kd are blind_kp and
+/// blind_kd, or those of by_sonars, and a landing leans less near the ground: by (1 - touch.lean) less from touch.over
+/// above touch.low down to that; where a foot may stand by its sonars it levels. A landing without a place brakes: a =
+/// -v - drag. By hand the pilot's roll and pitch are meant from the heading of take-off: phi_d = roll cos(yaw) + pitch
+/// sin(yaw), theta_d = pitch cos(yaw) - roll sin(yaw). Standing it levels: phi_d_dot = -phi_d / stand_time, and theta_d
+/// alike.
 struct PositionControl {
   static constexpr std::string_view summary = "holds a place by leaning towards it, or leans as the pilot says";
   struct Param {
@@ -56,6 +71,7 @@ struct PositionControl {
     double blind_kp = 0.6;
     double blind_kd = 1.5;
     BlindTouch touch{};
+    BlindHold by_sonars{};
     double max_trim = 1;
     static constexpr auto fields() {
       using P = Param;
@@ -68,6 +84,7 @@ struct PositionControl {
                       field<&P::stand_time>("s", "in which it levels where it stands").in(0.02, 100),
                       field<&P::blind_kp>("1/s^2", "kp when lasers show how it leans, slower than an IMU"),
                       field<&P::blind_kd>("1/s", "kd then"), field<&P::touch>("", "how it touches the ground then"),
+                      field<&P::by_sonars>("", "the same, when sonars do"),
                       field<&P::max_trim>("m/s^2", "acceleration that the integral adds, at most").in(0, 100));
     }
   };

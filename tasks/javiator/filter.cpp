@@ -156,9 +156,13 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
     const double jump = state.imu.lost && !is_blind ? p.range_jump : p.sonar_jump + p.sonar_jump_rate * state.z.since;
     const bool credible = new_z && is_near(state.z, z - state.zero_z, std::min(jump, p.range_jump));
     const bool had_sonar = !state.sonar.lost;
-    const bool repeats = p.sonar_repeats > 0 && state.sonar.repeats >= p.sonar_repeats;
+    // blind, nothing else shows its altitude: a hover that is still is no sonar that is stuck
+    const bool repeats = !is_blind && p.sonar_repeats > 0 && state.sonar.repeats >= p.sonar_repeats;
     if (believe(state.sonar, credible, p.patience) && !repeats) {
-      correct(state.z, z - state.zero_z, is_blind ? p.unfelt.bandwidth : p.bandwidth);
+      if (is_blind && blind.tilt_known)
+        track(state.z, z - state.zero_z, p.unfelt.climb);
+      else
+        correct(state.z, z - state.zero_z, is_blind ? p.unfelt.bandwidth : p.bandwidth);
       correct(state.z_slow, z - state.zero_z, p.drift.climb_bandwidth);
     }
     compare_climb(state, p, dt);
@@ -167,7 +171,9 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
     if (believe(state.pressure, new_pressure, p.patience) && !state.anew.begins) weigh_pressure(state, p, s.pressure);
     // what it has learnt of late may be what is wrong with the sonar
     const bool begins_to_repeat = new_z && p.sonar_repeats > 0 && state.sonar.repeats == p.sonar_repeats;
-    if (had_sonar && (state.sonar.lost || begins_to_repeat)) {
+    if (is_blind) {
+      state.z_slow = state.z;  // what is not felt leads it nowhere
+    } else if (had_sonar && (state.sonar.lost || begins_to_repeat)) {
       state.z.speed = state.z_slow.speed;
       state.z.bias = state.z_slow.bias;
     }
@@ -204,8 +210,8 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
                         .slope = lever.z() + range * R_now(2, along),
                         .skew = range * R_now(1 - fix.axis, along),
                         .range = range * R_now(fix.axis, along),
-                        .is_new = true};
-    if (is_blind) return void(axis.since = 0);
+                        .is_new = !(is_blind && blind.turns)};
+    if (is_blind) return void(axis.since = blind.turns ? axis.since : 0);
     const double doubt = range * R_now(1 - fix.axis, along) * rates.z() * p.age.spread / p.age.noise;
     correct(axis, fix.place - zero, p.bandwidth / (1 + doubt * doubt));  // slower, and damped as well as ever
   };
@@ -217,6 +223,7 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
   if (!settled && unseen >= p.unseen.max_time) state.laser_x.lost = state.laser_y.lost = true;
 
   const bool answers = state.unanswered <= p.imu_patience;
+  const bool tilt_known = is_blind && blind.tilt_known;
   // an accelerometer in flight feels the rotors along their axis, and drag across it
   const Vector3d drag = R * Vector3d(force_b.x(), force_b.y(), 0);
   e = {.roll = state.roll + p.age.imu * rates.x() - in.directive.trim_roll,
@@ -246,6 +253,8 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
        .rates_known = !state.imu.lost && answers,
        .attitude_known = !state.imu.lost && !state.angles.lost,
        .lean_known = is_blind,
+       .tilt_known = tilt_known,
+       .touches = tilt_known && may_stand(p.unfelt.stand, state.roll, state.pitch, state.z.place),
        .altitude_known = !state.sonar.lost,
        .position_known = !state.laser_x.lost && !state.laser_y.lost && unseen < p.unseen.patience,
        .pressure_known = !state.pressure.lost,

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "graph/task.h"
+#include "tasks/javiator/foot_stand.h"
 #include "tasks/javiator/observers.h"
 #include "tasks/javiator/room.h"
 #include "tasks/javiator/sensor_trust.h"
@@ -60,13 +61,17 @@ struct UnfeltMotion {
   double gap = 0.1;
   double rate = 2;
   double bandwidth = 20;
+  UnfeltClimb climb{};
+  FootStand stand{};
 
   static constexpr auto fields() {
+    using U = UnfeltMotion;
     return describe(
-        field<&UnfeltMotion::gap>(
-            "s", "without the IMU, more than a few lost packets, from which on it may have turned unforeseen"),
-        field<&UnfeltMotion::rate>("rad/s", "of that turn"),
-        field<&UnfeltMotion::bandwidth>("rad/s", "of the observer of altitude without an IMU, in gusts"));
+        field<&U::gap>("s",
+                       "without the IMU, more than a few lost packets, from which on it may have turned unforeseen"),
+        field<&U::rate>("rad/s", "of that turn"),
+        field<&U::bandwidth>("rad/s", "of the observer of altitude where lasers show how it leans, in gusts"),
+        field<&U::climb>("", "where sonars do"), field<&U::stand>("", "and where it touches the ground then"));
   }
 };
 
@@ -125,6 +130,8 @@ struct ReadingAge {
 ///   altitude:   z of R_nb (sonar_x, sonar_y, sonar_z + range), from where it stood, corrects the third of them
 ///   place:      find_place (room.h) of each laser's range with the rotation at that time, the first two
 ///   drift:      a second observer upwards, and a SlowAngle of roll and pitch, hardly corrected (filter_checks.h)
+///   blind:      where sonars show how it leans altitude is tracked (observers.h, UnfeltClimb), and a foot may stand
+///               (foot_stand.h)
 ///   pressure:   h = (mean on the ground - pressure) / pascal_per_metre; without a sonar, e being h - z at a reading,
 ///               z += pressure_place e,   climb += pressure_speed e
 /// Between readings of the IMU rates and forces fade by e^(-since / fade), rates to 0 and f_b to R_nb^T (0, 0, -g). The

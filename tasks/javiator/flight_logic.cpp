@@ -34,9 +34,9 @@ bool has_touched(const FlightLogic::Param& p, const FlightEstimate& e, double th
 }
 
 // One that leans may stand on one foot, and would fall onto the others with its motors off; one with all of its thrust
-// may hover for a moment. Without an IMU nobody knows, and it had better end.
+// may hover for a moment. Where nobody knows, it had better end.
 bool may_fall(const FlightLogic::Param& p, const FlightEstimate& e, double thrust) {
-  return e.rates_known && (std::hypot(e.roll, e.pitch) > p.level || thrust > p.carried);
+  return (e.rates_known || e.tilt_known) && (std::hypot(e.roll, e.pitch) > p.level || thrust > p.carried);
 }
 
 // For how long that has to last. A motor that gives more than it is commanded carries it aloft with little thrust
@@ -205,7 +205,7 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
     const double counted = dt * p.touch_time / touch_time(p, e, in.lift.thrust);
     state.still = has_touched(p, e, in.lift.thrust) ? state.still + counted : 0;
     state.lies_over = lies_over(p, e) ? state.lies_over + dt : 0;
-    // out of control it is better on the ground here than somewhere else; a lean that lasers show may be another
+    // out of control it is better on the ground here than somewhere else; a lean without an IMU may be another
     if (state.lies_over > (measures_lean(e) ? p.out_of_control_time : p.touch_time))
       enter(FlightState::halt, d.cause, state, d);
     else if (state.since > p.least_time && state.still > p.touch_time)

@@ -107,7 +107,7 @@ struct FlightLogic {
                                     "of lean that the IMU shows, beyond which a landing ends with the motors locked")
               .in(0, std::numbers::pi),
           field<&P::out_of_control_time>("s", "of that"),
-          field<&P::overturned>("rad", "of lean that only lasers show, likewise, for touch_time")
+          field<&P::overturned>("rad", "of lean that is known without an IMU, likewise, for touch_time")
               .in(0, std::numbers::pi),
           field<&P::tips_below>("m",
                                 "altitude below which a lean beyond its limit locks the motors: it tips over; and "

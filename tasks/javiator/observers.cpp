@@ -24,6 +24,18 @@ void correct(AxisObserver& axis, double measured, double bandwidth) {
   axis.since = 0;
 }
 
+void track(AxisObserver& axis, double measured, const UnfeltClimb& by) {
+  const double residual = measured - axis.place;
+  const double T = axis.since;
+  const double lambda = by.push * T * T / by.noise;
+  const double r = (4 + lambda - std::sqrt(lambda * (8 + lambda))) / 4;
+  const double alpha = 1 - r * r, beta = 2 * (1 - r) * (1 - r);
+  axis.place += alpha * residual;
+  axis.speed += beta * residual / T;
+  axis.bias -= 0.5 * beta * beta / alpha * residual / (T * T);
+  axis.since = 0;
+}
+
 void predict(SlowAngle& slow, double rate, double dt) { slow.angle += (rate - slow.bias) * dt; }
 
 void correct(SlowAngle& slow, double measured, double bandwidth, double dt) {

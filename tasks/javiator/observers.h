@@ -24,6 +24,23 @@ struct AxisObserver {
   }
 };
 
+/// How the same axis is tracked where a part of its acceleration is not felt, by z, T after the one before: with e =
+/// z - x, alpha and beta of an alpha-beta filter of that tracking index, and gamma = beta^2 / alpha for the bias,
+///   lambda = push T^2 / noise,   r = (4 + lambda - sqrt(lambda (8 + lambda))) / 4
+///   alpha = 1 - r^2,   beta = 2 (2 - alpha) - 4 sqrt(1 - alpha) = 2 (1 - r)^2
+///   x += alpha e,   v += beta e / T,   b -= beta^2 / (2 alpha) e / T^2
+/// Kalata, "The Tracking Index: A Generalized Parameter for alpha-beta and alpha-beta-gamma Target Trackers", 1984.
+struct UnfeltClimb {
+  double push = 1;
+  double noise = 0.0038;
+
+  static constexpr auto fields() {
+    return describe(
+        field<&UnfeltClimb::push>("m/s^2", "of what is not felt: the greater, the faster it tracks").in(0.001, 1000),
+        field<&UnfeltClimb::noise>("m", "of a range: the greater, the slower").in(1e-6, 1));
+  }
+};
+
 /// An angle (rad) that its rate turns, whose bias b (rad/s) is learnt; what is measured corrects it only slowly. Over
 /// dt:
 ///   angle += (rate - b) dt
@@ -85,6 +102,9 @@ void predict(AxisObserver& axis, double acceleration, double dt);
 
 /// What is measured (m) corrects place, speed and bias, with three poles at the bandwidth (rad/s).
 void correct(AxisObserver& axis, double measured, double bandwidth);
+
+/// What is measured (m) corrects place, speed and bias by the gains of UnfeltClimb.
+void track(AxisObserver& axis, double measured, const UnfeltClimb& by);
 
 /// Standing still it does not move, and what it feels is the accelerometer's bias.
 void rest(AxisObserver& axis, double acceleration, const RestLearning& by);

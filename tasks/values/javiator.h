@@ -157,8 +157,9 @@ struct FlightEstimate {
   double lift = 0, drag_x = 0, drag_y = 0;
   double battery = 0, rates_age = 0;
   PlaceFix fix_x{}, fix_y{};
-  bool rates_known = false, attitude_known = false, lean_known = false, altitude_known = false, position_known = false;
-  bool pressure_known = false, answers_known = false;
+  bool rates_known = false, attitude_known = false, lean_known = false, tilt_known = false;
+  bool touches = false;
+  bool altitude_known = false, position_known = false, pressure_known = false, answers_known = false;
 
   static constexpr auto fields() {
     using E = FlightEstimate;
@@ -176,7 +177,9 @@ struct FlightEstimate {
         field<&E::fix_x>("", "north of the start"), field<&E::fix_y>("", "east of the start"),
         field<&E::rates_known>("", "the IMU reports something new"),
         field<&E::attitude_known>("", "and its angles agree with its rates"),
-        field<&E::lean_known>("", "lasers show roll and pitch in its place"),
+        field<&E::lean_known>("", "sonars or lasers show roll and pitch in its place"),
+        field<&E::tilt_known>("", "sonars do, on the ground as well"),
+        field<&E::touches>("", "so low and leaning so, by the sonars, that a foot may stand"),
         field<&E::altitude_known>("", "the sonar reports something credible"),
         field<&E::position_known>("", "the lasers show it, or did of late"),
         field<&E::pressure_known>("", "the BMU does"), field<&E::answers_known>("", "the Robostix answers in time"));
@@ -224,26 +227,27 @@ struct TurnDemand {
   }
 };
 
-/// How it moves, as the lasers and what the rotors are sent say, without the IMU.
+/// How it moves, as sonars, lasers and what the rotors are sent say, without the IMU.
 struct BlindMotion {
   double roll = 0, pitch = 0, yaw = 0;
   double p = 0, q = 0, r = 0;
   double x = 0, y = 0, v_x = 0, v_y = 0;
   double drag_x = 0, drag_y = 0, lift = 0;
-  bool known = false;
+  bool known = false, tilt_known = false, turns = false;
 
   static constexpr auto fields() {
     using M = BlindMotion;
-    return describe(field<&M::roll>("rad"), field<&M::pitch>("rad"),
-                    field<&M::yaw>("rad", "from the take-off heading, that of a model"),
-                    field<&M::p>("rad/s", "rate about the body's x"), field<&M::q>("rad/s", "about y"),
-                    field<&M::r>("rad/s", "about z"), field<&M::x>("m", "north of the start"),
-                    field<&M::y>("m", "east of the start"), field<&M::v_x>("m/s", "to the north"),
-                    field<&M::v_y>("m/s", "to the east"),
-                    field<&M::drag_x>("m/s^2", "to the north, as felt before: drag and wind"),
-                    field<&M::drag_y>("m/s^2", "to the east"),
-                    field<&M::lift>("m/s^2", "specific force upwards along the rotors' axis"),
-                    field<&M::known>("", "by lasers of late, not turning round"));
+    return describe(
+        field<&M::roll>("rad"), field<&M::pitch>("rad"),
+        field<&M::yaw>("rad", "from the take-off heading, that of a model"),
+        field<&M::p>("rad/s", "rate about the body's x"), field<&M::q>("rad/s", "about y"),
+        field<&M::r>("rad/s", "about z"), field<&M::x>("m", "north of the start"),
+        field<&M::y>("m", "east of the start"), field<&M::v_x>("m/s", "to the north"),
+        field<&M::v_y>("m/s", "to the east"), field<&M::drag_x>("m/s^2", "to the north, as felt before: drag and wind"),
+        field<&M::drag_y>("m/s^2", "to the east"),
+        field<&M::lift>("m/s^2", "specific force upwards along the rotors' axis"),
+        field<&M::known>("", "by sonars of late, or by lasers while it does not turn round"),
+        field<&M::tilt_known>("", "by sonars"), field<&M::turns>("", "round: where lasers look is not known"));
   }
 };
 

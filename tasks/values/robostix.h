@@ -37,6 +37,17 @@ struct JaviatorSensors {
   }
 };
 
+/// What each of its four sonars reports, for who has asked for it; one on each arm, in the order of the motors.
+struct SonarRanges {
+  std::array<double, 4> ranges{};
+  std::uint32_t readings = 0;
+
+  static constexpr auto fields() {
+    return describe(field<&SonarRanges::ranges>("m", "along the body's axis, of the front, right, rear and left one"),
+                    field<&SonarRanges::readings>("", "so far; the same number again: none has come since"));
+  }
+};
+
 /// As the Robostix takes them.
 inline constexpr double max_motor_signal = 16000;
 

@@ -64,6 +64,9 @@ TEST_SUITE("tasks/ranges") {
         {{"room", "sight", "corner"}, "a double [m] from 0 to 100", "-1"},
         {{"room", "sight", "place_error"}, "a double [m] from 0 to 100", "-1"},
         {{"room", "sight", "grazing"}, "a double from 0 to 1", "2"},
+        {{"unfelt", "climb", "push"}, "a double [m/s^2] from 0.001 to 1000", "0"},
+        {{"unfelt", "climb", "noise"}, "a double [m] from 1e-06 to 1", "0"},
+        {{"unfelt", "stand", "foot"}, "a double [m] from 0.01 to 10", "0"},
     });
   }
 
@@ -98,6 +101,13 @@ TEST_SUITE("tasks/ranges") {
         {{"start", "rate"}, "a double [rad/s] from 0 to 10", "-1"},
         {{"start", "wind_apart"}, "a double from 0 to 10", "-1"},
         {{"start", "wind_width"}, "a double from 0 to 10", "-1"},
+        {{"sonars", "arm"}, "a double [m] from 0.01 to 10", "0"},
+        {{"sonars", "reach"}, "a double [m] from 0 to 100", "-1"},
+        {{"sonars", "jump"}, "a double [m] from 0 to 10", "-1"},
+        {{"sonars", "noise"}, "a double [rad] from 1e-04 to 1", "0"},
+        {{"sonars", "age"}, "a double [s] from 0 to 1", "-1"},
+        {{"sonars", "mean_time"}, "a double [s] from 1 to 1000", "0"},
+        {{"sonars", "patience"}, "a double [s] from 0 to 1", "-1"},
     });
   }
 }

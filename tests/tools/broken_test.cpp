@@ -59,6 +59,8 @@ const std::vector<std::string> brought_about_elsewhere{
     "' is not simulated in this process",
     // a communicator of such a type: tests/graph/expect/at_end_test.cpp
     "carries a value of changing size",
+    // a distributer of a program, without parameters: tests/graph/model/parameters_test.cpp
+    " has no parameters",
     // an option: tests/tools/commands/campaign/campaign_test.cpp
     "the lists and seeds that it varies have more than 1000000000 combinations; say how many runs there are",
     "' names no metric; write name=metric, as in deepest=max(depth of dune)",

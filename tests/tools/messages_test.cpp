@@ -11,7 +11,7 @@ using command::run_jarol;
 
 TEST_SUITE("tools/messages") {
   TEST_CASE("sets, messages and fields are listed") {
-    CHECK(run_jarol("messages").output.find("  javiator  23 messages   JAviator 1: JAviator control protocol\n") !=
+    CHECK(run_jarol("messages").output.find("  javiator  24 messages   JAviator 1: JAviator control protocol\n") !=
           std::string::npos);
     const std::string imc = run_jarol("messages imc").output;
     CHECK(imc.starts_with("imc: Inter Module Communication, IMC 5.4.31\n\n"));

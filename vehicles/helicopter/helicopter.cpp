@@ -56,6 +56,7 @@ Helicopter::Helicopter(const HelicopterParameters& parameters, std::uint64_t see
       sensors_(parameters, seed),
       signals_(parameters.packets, spread_seed(seed, "packets.signals")),
       answers_(parameters.packets, spread_seed(seed, "packets.answers")),
+      sonars_(parameters.packets, spread_seed(seed, "packets.sonars")),
       voltage_(battery_.calc_voltage(0.0)),
       judge_(parameters, plant_->motion()),
       seed_(seed),
@@ -122,10 +123,14 @@ void Helicopter::step() {
   robostix_.step();
   if (robostix_.answers()) {
     answer_ = sensors_.answer(robostix_.id());
+    const bool is_new = (answer_.flags & messages::javiator::JaviatorData::Flags::SONAR) != 0;
+    if (is_new && robostix_.reports_each_sonar() && parameters_.sensors.sonars == 4)
+      sonars_.send(sensors_.each_sonar(robostix_.id()), nanoseconds_);
     answers_.send(answer_, nanoseconds_);
     outputs_.sensors = readings_of(answer_);
     sensors_.sample_imu(nanoseconds_, scene());
   }
+  sonars_.arrive(nanoseconds_);
   answers_.arrive(nanoseconds_);
 }
 
@@ -140,7 +145,7 @@ void Helicopter::serialize(Archive& archive) {
   plant_->serialize(archive);
   archive(robostix_, battery_, wind_, sensors_, voltage_, outputs_, judge_, settings_, nanoseconds_);
   archive.bytes(&answer_, sizeof answer_);
-  archive(signals_, answers_);
+  archive(signals_, answers_, sonars_);
 }
 
 VehicleState Helicopter::state() const {
@@ -175,6 +180,7 @@ void Helicopter::command(const void* inputs) {
 }
 
 void Helicopter::sense(messages::Receiver& receiver) const {
+  for (const auto& packet : sonars_.arrived()) receiver.receive(messages::refer_to(packet.message));
   for (const auto& packet : answers_.arrived()) receiver.receive(messages::refer_to(packet.message));
 }
 

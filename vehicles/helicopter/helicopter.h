@@ -67,6 +67,7 @@ class Helicopter : public Vehicle {
   messages::javiator::JaviatorData answer_{};
   PacketLine<messages::javiator::MotorSignals> signals_;
   PacketLine<messages::javiator::JaviatorData> answers_;
+  PacketLine<messages::javiator::SonarData> sonars_;
   double voltage_ = 0.0;
   HelicopterOutputs outputs_;
   HelicopterJudge judge_;

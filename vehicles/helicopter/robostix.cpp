@@ -8,6 +8,7 @@ namespace jarol::vehicles {
 namespace {
 
 constexpr int watchdog_steps = 20;  // 100 ms
+constexpr int asked_steps = 800;    // 4 s
 constexpr double max = 16000.0;
 
 }  // namespace
@@ -26,12 +27,15 @@ void Robostix::accept(messages::MessageRef command) {
   } else if (command.as<javiator::ShutDown>() != nullptr) {
     unlocked_ = false;
     signals_ = {};
+  } else if (const auto* sensors = command.as<javiator::EnSensors>()) {
+    sonar_steps_ = (sensors->enable & javiator::EnSensors::Enable::EACH_SONAR) != 0 ? asked_steps : 0;
   }
 }
 
 void Robostix::step() {
   answers_ = asked_;
   asked_ = false;
+  sonar_steps_ = std::max(sonar_steps_ - 1, 0);
   if (++silent_steps_ % watchdog_steps != 0) return;
   for (double& signal : signals_) signal = std::max(signal - 5.0, 0.0);
 }

@@ -12,7 +12,7 @@ namespace jarol::vehicles {
 inline constexpr double max_signal = 16000.0;  // of a motor
 
 /// Motors are locked until a SwitchState, and again after a ShutDown. Without MotorSignals for 100 ms the signals fall
-/// by 5 each 100 ms.
+/// by 5 each 100 ms. Each sonar's range is reported for 4 s after an EnSensors that asks for it.
 class Robostix {
  public:
   /// Others than its own messages are ignored.
@@ -27,8 +27,9 @@ class Robostix {
   /// MotorSignals came in the step that has just passed, to be answered now.
   bool answers() const { return answers_; }
   std::uint16_t id() const { return id_; }
+  bool reports_each_sonar() const { return sonar_steps_ > 0; }
 
-  void serialize(Archive& archive) { archive(signals_, unlocked_, asked_, answers_, id_, silent_steps_); }
+  void serialize(Archive& archive) { archive(signals_, unlocked_, asked_, answers_, id_, silent_steps_, sonar_steps_); }
 
  private:
   std::array<double, 4> signals_{};
@@ -37,6 +38,7 @@ class Robostix {
   bool answers_ = false;
   std::uint16_t id_ = 0;
   int silent_steps_ = 0;
+  int sonar_steps_ = 0;  // for which each sonar is reported
 };
 
 }  // namespace jarol::vehicles

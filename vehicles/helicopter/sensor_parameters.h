@@ -12,7 +12,7 @@ namespace jarol::vehicles {
 /// Places of the sensors in body axes, and the room they measure. Two lasers are fixed to the body, one looks forward
 /// and one to the right: north and east at heading 0. They see the walls, whatever their height, and nothing else; a
 /// reading of 0 is that of nothing within reach. Four sonars are spread evenly about the vehicle's axis, and the mean
-/// of the middle two counts.
+/// of the middle two counts; who asks is told what each reports.
 struct SensorParameters {
   std::uint8_t sonars = 4;
   double sonar_x = 0.20;

@@ -98,6 +98,7 @@ void HelicopterSensors::serialize(Archive& archive) {
   archive(imu_noise_, sonar_noise_, laser_noise_, bmu_noise_, drift_noise_, imu_, sonar_, laser_north_, laser_east_,
           bmu_, rate_bias_, force_bias_, sampled_, wandered_);
   archive.bytes(&data_, sizeof data_);
+  archive.bytes(&each_sonar_, sizeof each_sonar_);
 }
 
 void HelicopterSensors::sample(std::int64_t nanoseconds, const Scene& scene) {
@@ -142,9 +143,11 @@ void HelicopterSensors::sample_sonars(const Scene& scene, const Error& error) {
       ranges[i] = sonar_reach * sonar_noise_.uniform();
     r_b = {-r_b[1], r_b[0], r_b[2]};  // the next one is a quarter of a turn on
   }
+  const auto counts = [](double range) { return to_counts(range / sonar_reach * 1024.0, 1023.0); };
+  each_sonar_ = {counts(ranges[0]), counts(ranges[1]), counts(ranges[2]), counts(ranges[3]), 0};
   std::sort(ranges.begin(), ranges.begin() + static_cast<std::ptrdiff_t>(count));
   const double range = count == 4 ? 0.5 * (ranges[1] + ranges[2]) : ranges[0];
-  data_.sonar = to_counts(range / sonar_reach * 1024.0, 1023.0);
+  data_.sonar = counts(range);
 }
 
 std::array<std::uint8_t, 8> HelicopterSensors::range_of(const Scene& scene, std::size_t axis,
@@ -203,6 +206,12 @@ JaviatorData HelicopterSensors::answer(std::uint16_t id) {
   const JaviatorData answer = data_;
   data_.flags = 0;
   return answer;
+}
+
+messages::javiator::SonarData HelicopterSensors::each_sonar(std::uint16_t id) const {
+  messages::javiator::SonarData ranges = each_sonar_;
+  ranges.id = id;
+  return ranges;
 }
 
 }  // namespace jarol::vehicles

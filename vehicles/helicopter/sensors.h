@@ -34,6 +34,9 @@ class HelicopterSensors {
   /// The answer to motor signals; what was new is new no longer.
   messages::javiator::JaviatorData answer(std::uint16_t id);
 
+  /// What each of four sonars reported last, for that answer.
+  messages::javiator::SonarData each_sonar(std::uint16_t id) const;
+
   void serialize(Archive& archive);
 
  private:
@@ -55,6 +58,7 @@ class HelicopterSensors {
   fossen::Vector3 rate_bias_{}, force_bias_{};
   std::int64_t wandered_ = 0;  // ns
   messages::javiator::JaviatorData data_{};
+  messages::javiator::SonarData each_sonar_{};
   std::int64_t sampled_ = -1;  // ns
   double ground_z_ = 0.0;      // height at which `pressure` holds
 };

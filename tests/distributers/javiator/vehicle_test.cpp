@@ -26,6 +26,8 @@ struct SentInOrder : messages::Receiver {
       order += "u";
     } else if (message.as<javiator::ShutDown>() != nullptr) {
       order += "s";
+    } else if (const auto* sensors = message.as<javiator::EnSensors>()) {
+      order += "e" + std::to_string(sensors->enable);
     }
   }
   std::string order;
@@ -162,6 +164,39 @@ TEST_SUITE("distributers/javiator_vehicle") {
     for (int i = 0; i < 150; ++i) v.command(sent, false, {});
     CHECK(std::count(sent.order.begin(), sent.order.end(), 's') == 3);
     CHECK(std::count(sent.order.begin(), sent.order.end(), 'u') == 0);
+  }
+
+  TEST_CASE("each sonar is asked for before the first signals and about once a second, by who wants it") {
+    SentInOrder sent;
+    const auto fly = [&](Vehicle& v, int times) {
+      sent.order.clear();
+      for (int i = 0; i < times; ++i) v.command(sent, false, {});
+      return sent.order;
+    };
+    Vehicle as_ever, v{.distributer = Typed<JaviatorVehicle>({.each_sonar = true})};
+    CHECK(fly(as_ever, 150).find('e') == std::string::npos);
+    CHECK(fly(v, 3) == "e1mmm");
+    const std::string order = fly(v, 150);
+    CHECK(std::count(order.begin(), order.end(), 'e') == 2);
+  }
+
+  TEST_CASE("the ranges of the sonars come in m, each once, and none that was held up or comes twice") {
+    Vehicle v;
+    SentInOrder sent;
+    for (int i = 0; i < 5; ++i) v.command(sent, true, {});
+    tasks::SonarRanges sonars;
+    const auto hear = [&](std::uint16_t id) {
+      v.distributer.receive(messages::refer_to(javiator::SonarData{1023, 512, 256, 0, id}));
+      return v.distributer.take<&JaviatorVehicle::In::sonars>(sonars);
+    };
+    CHECK(hear(3));
+    CHECK(sonars.ranges == std::array{1023 * 3.0 / 1024, 1.5, 0.75, 0.0});
+    CHECK(sonars.readings == 1);
+    CHECK_FALSE(hear(3));
+    CHECK_FALSE(hear(2));
+    CHECK(hear(5));
+    CHECK(sonars.readings == 2);
+    CHECK(v.take() == "nothing");  // they are no answer
   }
 
   TEST_CASE("signals are whole numbers from 0 to 16000, each command has the next number") {

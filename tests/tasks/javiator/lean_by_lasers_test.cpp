@@ -164,11 +164,11 @@ TEST_SUITE("tasks/lean_by_lasers") {
     Altitude a = landing_blind();
     a.in.estimate.altitude = 0.0449;
     a.run(10);
-    CHECK(a.state.blind_cut == doctest::Approx(1.4 * 10 * dt));
+    CHECK(a.state.foot_cut == doctest::Approx(1.4 * 10 * dt));
     CHECK(a.run(200) == 0);
     a.in.estimate.altitude = 0.0451;
     a.run();
-    CHECK(a.state.blind_cut == 0);
+    CHECK(a.state.foot_cut == 0);
   }
 
   TEST_CASE("where it may stand it demands 4 m/s^2 upwards at most, whatever one range makes of its climb") {
@@ -178,7 +178,7 @@ TEST_SUITE("tasks/lean_by_lasers") {
     CHECK(a.run() > 1.9);
     a.in.estimate.altitude = 0.0449;
     const double thrust = a.run();
-    CHECK(thrust == doctest::Approx(a.state.trim + 4 / g_earth - a.state.blind_cut));
+    CHECK(thrust == doctest::Approx(a.state.trim + 4 / g_earth - a.state.foot_cut));
   }
 
   TEST_CASE("an error of altitude is 20/s^2 then, and 12/s^2 with an IMU") {

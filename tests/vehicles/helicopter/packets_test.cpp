@@ -130,6 +130,44 @@ TEST_SUITE("vehicles/packets") {
     for (std::size_t i = 0; i < a.size(); ++i) CHECK((a[i].due == b[i].due && a[i].message == b[i].message));
   }
 
+  TEST_CASE("a helicopter that is asked for each sonar reports it before the answer that says that it is new") {
+    struct Order : messages::Receiver {
+      void receive(messages::MessageRef message) override {
+        if (const auto* sonars = message.as<javiator::SonarData>()) {
+          all += 's';
+          id = sonars->id;
+        } else if (const auto* data = message.as<javiator::JaviatorData>()) {
+          const bool is_new = (data->flags & javiator::JaviatorData::Flags::SONAR) != 0;
+          all += is_new ? 'N' : '-';
+          if (all.ends_with("sN")) CHECK(data->id == id);
+        }
+      }
+      std::string all;
+      int id = -1;
+    };
+    const auto order_of = [](std::uint8_t sonars, bool asks, FailureKind failure = FailureKind::none) {
+      HelicopterParameters parameters;
+      parameters.dynamics = Dynamics::rigid;
+      parameters.sensors.sonars = sonars;
+      parameters.failures.sonar.kind = failure;
+      parameters.failures.sonar.at = 0;
+      Helicopter helicopter(parameters, 1);
+      Order order;
+      if (asks) helicopter.accept(messages::refer_to(javiator::EnSensors{javiator::EnSensors::Enable::EACH_SONAR}));
+      for (int i = 0; i < 30; ++i) {
+        if (i % 3 == 0)
+          helicopter.accept(messages::refer_to(javiator::MotorSignals{0, 0, 0, 0, static_cast<std::uint16_t>(i)}));
+        helicopter.step();
+        helicopter.sense(order);
+      }
+      return order.all;
+    };
+    CHECK(order_of(4, true) == "sN--sN--sN--sN");
+    CHECK(order_of(4, false) == "N--N--N--N");
+    CHECK(order_of(1, true) == "N--N--N--N");
+    CHECK(order_of(4, true, FailureKind::lost) == "----------");
+  }
+
   TEST_CASE("signals and answers of a helicopter are lost on their way, and answered twice where they come twice") {
     CHECK(answers_over({}, 10) == std::vector{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
     CHECK(answers_over({.loss = 1}, 100).empty());

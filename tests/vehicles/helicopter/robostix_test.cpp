@@ -58,6 +58,22 @@ TEST_SUITE("vehicles/robostix") {
     CHECK(robostix.signals()[0] == 12);
   }
 
+  TEST_CASE("each sonar is reported for 4 s after an EnSensors that asks for it, or until one that does not") {
+    vehicles::Robostix robostix;
+    const auto enable = [&](std::uint8_t what) { robostix.accept(messages::refer_to(javiator::EnSensors{what})); };
+    CHECK_FALSE(robostix.reports_each_sonar());
+    enable(javiator::EnSensors::Enable::EACH_SONAR);
+    robostix.accept(messages::refer_to(javiator::ShutDown{}));
+    for (int i = 0; i < 799; ++i) robostix.step();
+    CHECK(robostix.reports_each_sonar());
+    robostix.step();
+    CHECK_FALSE(robostix.reports_each_sonar());
+    enable(javiator::EnSensors::Enable::EACH_SONAR);
+    CHECK(robostix.reports_each_sonar());
+    enable(0xFF & ~javiator::EnSensors::Enable::EACH_SONAR);
+    CHECK_FALSE(robostix.reports_each_sonar());
+  }
+
   TEST_CASE("signals beyond 0 to 16000 are cut off, and messages of others ignored") {
     vehicles::Robostix robostix;
     switch_state(robostix);

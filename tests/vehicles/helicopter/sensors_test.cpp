@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "graph/math/rotations.h"
+
 namespace {
 using namespace jarol;
 using namespace jarol::vehicles;
@@ -114,6 +116,32 @@ TEST_SUITE("vehicles/helicopter_sensors") {
     }
     CHECK(wrong_of_one == doctest::Approx(2000).scale(0).epsilon(0.1));
     CHECK(wrong_of_four < 800);  // two have to be wrong at once, 5 % of the time, and on the same side
+  }
+
+  TEST_CASE("each of four sonars, on the arms front, right, rear and left, measures along the body's axis") {
+    // 20 cm forward and 15 cm right of the axis, and so on round
+    HelicopterParameters parameters;
+    parameters.sensors.sonar_x = 0.2;
+    parameters.sensors.sonar_y = 0.15;
+    const double pitch = 0.1, roll = -0.2;
+    HelicopterSensors::Scene scene = level(0, 0, -1);
+    const Eigen::Matrix3d R = rotation_of(roll, pitch, 0.3);
+    for (int i = 0; i < 3; ++i) scene.motion.R_nb[static_cast<std::size_t>(i)] = {R(i, 0), R(i, 1), R(i, 2)};
+    HelicopterSensors sensors(parameters, 1);
+    sensors.sample(0, scene);
+    const auto ranges = sensors.each_sonar(7);
+    CHECK(ranges.id == 7);
+    // from the plane of the ground: 0 = height - (R r + range R e_z)_z
+    const auto expected = [&](double x, double y) {
+      const Eigen::Vector3d r_n = R * Eigen::Vector3d(x, y, parameters.sensors.sonar_z);
+      return static_cast<int>((1 - r_n.z()) / R(2, 2) / 3 * 1024);
+    };
+    CHECK(ranges.front == expected(0.2, 0.15));
+    CHECK(ranges.right == expected(-0.15, 0.2));
+    CHECK(ranges.rear == expected(-0.2, -0.15));
+    CHECK(ranges.left == expected(0.15, -0.2));
+    CHECK(ranges.front > ranges.rear + 10);  // nose up
+    CHECK(ranges.right > ranges.left + 10);  // to the left
   }
 
   TEST_CASE("noise has the deviation it is given, and is another with another seed") {

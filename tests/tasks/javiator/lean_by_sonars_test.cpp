@@ -1,0 +1,401 @@
+// How the helicopter leans when its IMU is lost, by the ranges of its four sonars, and how it lands by them.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "graph/math/rotations.h"
+#include "tasks/javiator/altitude_control.h"
+#include "tasks/javiator/blind_observer.h"
+#include "tasks/javiator/control.h"
+#include "tasks/javiator/sonar_tilt.h"
+#include "tests/tasks/heard_helicopter.h"
+#include "tests/tasks/javiator/driven_logic.h"
+#include "tests/tasks/javiator/every_15_ms.h"
+#include "tests/tasks/javiator/hovering_law.h"
+
+namespace {
+using namespace jarol::tasks;
+using jarol::tests::Altitude;
+using jarol::tests::dt;
+using jarol::tests::g_earth;
+using jarol::tests::tick;
+
+// From a height above level ground, each sonar 20 cm from the axis.
+SonarRanges ranges_of(double roll, double pitch, double height, std::uint32_t readings = 1) {
+  const Eigen::Matrix3d R = jarol::rotation_of(roll, pitch, 0);
+  SonarRanges sonars{.readings = readings};
+  const std::array<Eigen::Vector3d, 4> places{{{0.2, 0, 0.055}, {0, 0.2, 0.055}, {-0.2, 0, 0.055}, {0, -0.2, 0.055}}};
+  for (std::size_t i = 0; i < 4; ++i) sonars.ranges[i] = (height - (R * places[i]).z()) / R(2, 2);
+  return sonars;
+}
+
+// An observer whose IMU is lost after it was level at 0.3 m, and has been told of the sonars each 45 ms.
+struct BySonars {
+  BlindObserver::Param param{};
+  BlindObserver::State state{};
+  BlindObserver::Out out{};
+  BlindObserver::In in{.estimate = {.altitude = 0.3,
+                                    .lift = g_earth,
+                                    .rates_known = true,
+                                    .attitude_known = true,
+                                    .altitude_known = true},
+                       .lift = {1}};
+
+  // Ranges of that lean; none is that before to the last digit, unless they are stuck.
+  const BlindMotion& run(double roll, double pitch, int readings, bool stuck = false) {
+    for (int i = 0; i < readings; ++i) {
+      const std::uint32_t number = in.sonars.readings + 1;
+      in.sonars = ranges_of(roll, pitch, stuck ? 0.5 : 0.5 + 1e-9 * number, number);
+      for (int period = 0; period < 3; ++period) BlindObserver::run(param, tick, in, state, out);
+    }
+    return out.motion;
+  }
+  void lose_imu(double roll = 0, double pitch = 0) {
+    run(roll, pitch, 200);
+    in.estimate.rates_known = false;
+  }
+};
+
+Altitude landing_by_sonars() {
+  Altitude a;
+  a.in.estimate.rates_known = false;
+  a.in.estimate.lean_known = a.in.estimate.tilt_known = true;
+  a.in.directive.state = FlightState::landing;
+  return a;
+}
+
+FlightEstimate estimate_at(double height, double pitch, bool tilt_known) {
+  jarol::tests::HeardHelicopter heard;
+  heard.lift_to(height);
+  heard.sensors.new_imu = false;
+  heard.run(10);
+  const BlindMotion blind{.pitch = pitch, .lift = g_earth, .known = true, .tilt_known = tilt_known};
+  ++heard.sensors.answers;
+  // as high as before
+  heard.sensors.sonar = (0.2 + height) / std::cos(pitch) - 0.055;
+  JaviatorFilter::run(heard.param, tick, {heard.sensors, heard.directive, blind}, heard.state, heard.out);
+  return heard.out.estimate;
+}
+}  // namespace
+
+TEST_SUITE("tasks/lean_by_sonars") {
+  TEST_CASE("four ranges of level ground show roll and pitch, from any height and however it leans") {
+    for (const double height : {0.2, 1.0, 1.9})
+      for (const double roll : {-0.5, 0.0, 0.3})
+        for (const double pitch : {-0.4, 0.1, 0.5}) {
+          const auto tilt = find_tilt({}, ranges_of(roll, pitch, height));
+          REQUIRE(tilt);
+          CHECK(tilt->roll == doctest::Approx(roll));
+          CHECK(tilt->pitch == doctest::Approx(pitch));
+        }
+  }
+
+  TEST_CASE("ranges that are not those of a plane, by more than 3 cm, or beyond 2.9 m, show nothing") {
+    for (std::size_t wrong = 0; wrong < 4; ++wrong)
+      for (const double side : {-1.0, 1.0}) {
+        SonarRanges sonars = ranges_of(0.1, 0.1, 1);
+        sonars.ranges[wrong] += 0.029 * side;
+        CHECK(find_tilt({}, sonars));
+        sonars.ranges[wrong] += 0.002 * side;
+        CHECK_FALSE(find_tilt({}, sonars));
+      }
+    CHECK(find_tilt({}, ranges_of(0, 0, 2.95)));
+    CHECK_FALSE(find_tilt({}, ranges_of(0, 0, 2.96)));
+    CHECK_FALSE(find_tilt({}, ranges_of(0, 0.1, 2.93)));  // one of them
+  }
+
+  TEST_CASE("without an IMU it leans as the sonars show, whatever its heading, and no laser has to see it") {
+    for (const double heading : {0.0, 0.8, -2.0}) {
+      BySonars b;
+      b.in.estimate.heading = heading;
+      b.lose_imu();
+      const BlindMotion& m = b.run(0.1, -0.06, 30);
+      CHECK(m.roll == doctest::Approx(0.1).epsilon(0.1).scale(0));
+      CHECK(m.pitch == doctest::Approx(-0.06).epsilon(0.1).scale(0));
+      CHECK(m.known);
+      CHECK(m.tilt_known);
+    }
+  }
+
+  TEST_CASE("sonars that are lost show nothing, nor do those that repeat all four ranges six times") {
+    BySonars lost;
+    lost.lose_imu();
+    lost.in.estimate.altitude_known = false;
+    for (int i = 0; i < 10; ++i) lost.run(0.2, 0, 1);
+    CHECK(std::abs(lost.out.motion.roll) < 1e-3);
+    CHECK_FALSE(lost.out.motion.tilt_known);
+    BySonars stuck;
+    stuck.lose_imu();
+    CHECK(stuck.run(0.1, 0, 6, true).tilt_known);
+    CHECK(stuck.state.level.since == doctest::Approx(2 * dt));
+    CHECK_FALSE(stuck.run(0.1, 0, 8, true).tilt_known);
+    CHECK(stuck.run(0.1, 0, 1).tilt_known);
+  }
+
+  TEST_CASE(
+      "ranges are older than the lean that they show by 20 ms, while it turns and while it learns how they differ") {
+    const auto lean_after = [](double age) {
+      BySonars b{.param = {.sonars = {.age = age}}};
+      b.lose_imu();
+      for (int i = 1; i <= 12; ++i) b.run(0.02 * i, 0, 1);
+      return b.out.motion.roll;
+    };
+    // it rolls by 0.02 rad each 45 ms, as it is told
+    CHECK(lean_after(0.02) > lean_after(0) + 0.004);
+    BySonars learns;
+    learns.in.estimate.p = 0.5;
+    learns.lose_imu(0.1 - 0.5 * 0.02, 0);
+    learns.in.estimate.roll = 0;
+    CHECK(learns.state.level.roll == doctest::Approx(0.1).epsilon(0.02).scale(0));
+  }
+
+  TEST_CASE("what sonars show while the IMU reports otherwise, on a slope or after a trim, is no lean") {
+    BySonars b;
+    b.lose_imu(0.04, -0.03);
+    CHECK(b.state.level.roll == doctest::Approx(0.04).epsilon(0.02).scale(0));
+    CHECK(std::abs(b.run(0.04, -0.03, 30).roll) < 0.001);
+    CHECK(b.run(0.14, -0.03, 30).roll == doctest::Approx(0.1).epsilon(0.1).scale(0));
+    CHECK(std::abs(b.out.motion.pitch) < 0.002);
+    // one reading does not change what was learnt for long
+    BySonars silent;
+    silent.lose_imu(0.04, 0);
+    silent.in.estimate.rates_known = true;
+    for (int i = 0; i < 200; ++i) BlindObserver::run(silent.param, tick, silent.in, silent.state, silent.out);
+    silent.run(0.1, 0, 1);
+    CHECK(silent.state.level.roll < 0.051);
+    // nor does an IMU whose angles are wrong
+    silent.in.estimate.attitude_known = false;
+    silent.run(0.1, 0, 100);
+    CHECK(silent.state.level.roll < 0.051);
+  }
+
+  TEST_CASE("they show it for 0.3 s after the last reading, also of one that turns round, which its lasers do not") {
+    BySonars b;
+    b.in.estimate.r = 1;
+    b.lose_imu();
+    b.run(0.01, 0, 1);
+    CHECK(b.out.motion.turns);
+    b.in.estimate.fix_x = b.in.estimate.fix_y = {.range = 8, .is_new = true};
+    const auto wait = [&](int periods) {
+      for (int i = 0; i < periods; ++i) BlindObserver::run(b.param, tick, b.in, b.state, b.out);
+      return b.out.motion.known;
+    };
+    CHECK(wait(17));
+    CHECK_FALSE(wait(2));
+    CHECK_FALSE(b.out.motion.tilt_known);
+  }
+
+  TEST_CASE("the ground turns it as nobody foresees: there it follows the sonars sooner") {
+    const auto follows = [](bool touches) {
+      BySonars b;
+      b.lose_imu();
+      b.in.estimate.touches = touches;
+      return b.run(0.1, 0, 3).roll;
+    };
+    CHECK(follows(true) > 0.06);
+    CHECK(follows(true) > 1.2 * follows(false));
+  }
+
+  TEST_CASE("what lasers see while it turns round is no fix of its place, and it is not seen then") {
+    for (const bool turns : {false, true}) {
+      jarol::tests::HeardHelicopter heard;
+      heard.lift_to(1);
+      heard.sensors.new_imu = false;
+      heard.run(10);
+      const BlindMotion blind{.lift = g_earth, .known = true, .tilt_known = true, .turns = turns};
+      for (int i = 0; i < 120; ++i) {
+        ++heard.sensors.answers;
+        JaviatorFilter::run(heard.param, tick, {heard.sensors, heard.directive, blind}, heard.state, heard.out);
+      }
+      CHECK(heard.out.estimate.fix_x.is_new != turns);
+      CHECK(heard.out.estimate.position_known != turns);  // 1.8 s
+    }
+  }
+
+  TEST_CASE("without an IMU it climbs as the sonar shows, as what carries it is not felt") {
+    const auto climb_after = [](bool tilt_known) {
+      jarol::tests::HeardHelicopter heard;
+      heard.lift_to(1);
+      heard.sensors.new_imu = false;
+      heard.run(10);
+      const BlindMotion blind{.lift = g_earth, .known = true, .tilt_known = tilt_known};
+      ++heard.sensors.answers;
+      heard.sensors.sonar += 0.01;
+      JaviatorFilter::run(heard.param, tick, {heard.sensors, heard.directive, blind}, heard.state, heard.out);
+      return heard.out.estimate.climb;
+    };
+    AxisObserver axis;
+    axis.since = dt;
+    track(axis, 0.01, {});
+    CHECK(climb_after(true) == doctest::Approx(axis.speed).epsilon(0.05).scale(0));
+    CHECK(climb_after(false) > 1.5 * climb_after(true));
+  }
+
+  TEST_CASE("one that hovers still without an IMU, its sonar reporting the same each time, believes that") {
+    for (const bool tilt_known : {false, true}) {
+      jarol::tests::HeardHelicopter heard;
+      heard.param.sonar_repeats = 6;
+      heard.lift_to(1);
+      heard.sensors.new_imu = false;
+      heard.run(10);
+      // it takes what carries it for less than that is
+      const BlindMotion blind{.lift = g_earth - 1, .known = true, .tilt_known = tilt_known};
+      for (int i = 0; i < 100; ++i) {
+        ++heard.sensors.answers;
+        if (i < 70) heard.sensors.sonar += 1e-9;
+        JaviatorFilter::run(heard.param, tick, {heard.sensors, heard.directive, blind}, heard.state, heard.out);
+        CHECK(std::abs(heard.out.estimate.climb) < 0.4);
+        CHECK(std::abs(heard.out.estimate.altitude - 1) < 0.05);
+      }
+      CHECK(heard.out.estimate.altitude_known);
+    }
+  }
+
+  TEST_CASE("a foot may stand below 1 cm and by how much it leans, as far as sonars show that") {
+    for (const double pitch : {0.0, 0.15, -0.15}) {
+      const double foot = 0.2 * std::sin(std::abs(pitch));
+      CHECK_FALSE(estimate_at(foot + 0.012, pitch, true).touches);
+      CHECK(estimate_at(foot + 0.008, pitch, true).touches);
+      CHECK_FALSE(estimate_at(foot + 0.008, pitch, false).touches);
+    }
+    CHECK(may_stand({}, -0.15, 0.1, 0.2 * std::sin(0.15) + 0.0099));
+    CHECK_FALSE(may_stand({}, -0.15, 0.1, 0.2 * std::sin(0.15) + 0.0101));
+    CHECK(estimate_at(0.5, 0, true).tilt_known);
+    CHECK_FALSE(estimate_at(0.5, 0, false).tilt_known);
+  }
+
+  TEST_CASE("its climb is tracked without a lasting error where what it feels is wrong by as much as wind pushes it") {
+    AxisObserver axis{.place = 1};
+    double place = 1, speed = 0;
+    for (int i = 0; i < 60; ++i) {
+      for (int period = 0; period < 3; ++period) {
+        place += speed * dt + 0.5 * 0.4 * dt * dt;
+        speed += 0.4 * dt;
+        predict(axis, 0, dt);
+      }
+      track(axis, place, {});
+    }
+    CHECK(axis.place == doctest::Approx(place).epsilon(1e-3).scale(0));
+    CHECK(axis.speed == doctest::Approx(speed).epsilon(0.01).scale(0));
+    CHECK(axis.bias == doctest::Approx(-0.4).epsilon(0.01).scale(0));
+    // alpha and beta of a tracking index of 0.54, and gamma by them
+    AxisObserver one;
+    one.since = 0.045;
+    track(one, 0.01, {.push = 0.8, .noise = 0.003});
+    CHECK(one.place == doctest::Approx(0.006422).epsilon(0.001).scale(0));
+    CHECK(one.speed == doctest::Approx(0.07178).epsilon(0.001).scale(0));
+    CHECK(one.bias == doctest::Approx(-0.4011).epsilon(0.001).scale(0));
+  }
+
+  TEST_CASE(
+      "the place is held by 1.7/s^2 and 3.6/s, and where a foot may stand it levels in a landing, wherever that is") {
+    PositionControl::In in{.estimate = {.x = -0.1, .altitude = 1, .v_y = 0.2, .lean_known = true, .tilt_known = true},
+                           .directive = {.state = FlightState::landing, .hold_position = true}};
+    PositionControl::State state{.holding = true};
+    PositionControl::Out out{};
+    PositionControl::run({}, tick, in, state, out);
+    CHECK(-g_earth * std::tan(out.goal.pitch) == doctest::Approx(1.7 * 0.1).epsilon(0.01).scale(0));
+    CHECK(g_earth * std::tan(out.goal.roll) == doctest::Approx(-3.6 * 0.2).epsilon(0.01).scale(0));
+    in.estimate.touches = true;
+    const double roll = out.goal.roll, pitch = out.goal.pitch;
+    PositionControl::run({}, tick, in, state, out);
+    CHECK(out.goal.roll == doctest::Approx(roll * (1 - dt / 0.3)));
+    CHECK(out.goal.pitch == doctest::Approx(pitch * (1 - dt / 0.3)));
+    in.directive.hold_position = false;
+    PositionControl::run({}, tick, in, state, out);
+    CHECK(out.goal.roll == doctest::Approx(roll * (1 - dt / 0.3) * (1 - dt / 0.3)));
+    in.directive = {.state = FlightState::flying, .hold_position = true};
+    state = {.holding = true};
+    PositionControl::run({}, tick, in, state, out);
+    CHECK(-g_earth * std::tan(out.goal.pitch) == doctest::Approx(1.7 * 0.1).epsilon(0.02).scale(0));
+  }
+
+  TEST_CASE("near the ground a landing leans by a third less, from 7 cm down to 3.7 cm") {
+    const auto pitch = [](double altitude) {
+      PositionControl::In in{.estimate = {.x = -0.1, .altitude = altitude, .lean_known = true, .tilt_known = true},
+                             .directive = {.state = FlightState::landing, .hold_position = true}};
+      PositionControl::State state{.holding = true};
+      PositionControl::Out out{};
+      PositionControl::run({}, tick, in, state, out);
+      return out.goal.pitch;
+    };
+    CHECK(pitch(0.071) == pitch(1));
+    CHECK(pitch(0.036) == doctest::Approx(0.66 * pitch(1)));
+  }
+
+  TEST_CASE("it turns to what is commanded down to the ground, where lasers would not show how it leans") {
+    const auto demand = [](bool tilt_known) {
+      AttitudeControl::In in{.estimate = {.roll = 0.1, .altitude = 0.01, .lean_known = true, .tilt_known = tilt_known}};
+      AttitudeControl::State state{};
+      AttitudeControl::Out out{};
+      AttitudeControl::run({}, tick, in, state, out);
+      return out.turn.roll;
+    };
+    CHECK(demand(true) < -0.03);
+    CHECK(demand(false) == 0);
+  }
+
+  TEST_CASE(
+      "where a foot may stand it takes back its thrust by 1.16/s, to none, and has it again slowly where none does") {
+    Altitude a = landing_by_sonars();
+    a.in.estimate.altitude = 0.01;
+    a.run(10);
+    CHECK(a.state.foot_cut == 0);
+    a.in.estimate.touches = true;
+    a.run(10);
+    CHECK(a.state.foot_cut == doctest::Approx(1.16 * 10 * dt));
+    a.in.estimate.touches = false;
+    a.run(10);
+    CHECK(a.state.foot_cut == doctest::Approx((1.16 - 0.11) * 10 * dt));
+    a.in.estimate.touches = true;
+    CHECK(a.run(200) == 0);
+    CHECK(a.state.foot_cut == 2);
+    // one that knows nothing more takes it back in another way
+    a.in.estimate.lean_known = a.in.estimate.tilt_known = a.in.estimate.touches = false;
+    a.run();
+    CHECK(a.state.foot_cut == 0);
+  }
+
+  TEST_CASE("where a foot may stand it demands to sink, by 0.5 m/s^2, however low it takes itself to be") {
+    Altitude a = landing_by_sonars();
+    a.in.estimate.altitude = 0.01;
+    a.in.estimate.climb = -1;
+    CHECK(a.run() > 1.5);
+    a.in.estimate.touches = true;
+    const double thrust = a.run();
+    CHECK(thrust == doctest::Approx(a.state.trim - 0.5 / g_earth - a.state.foot_cut));
+  }
+
+  TEST_CASE("it demands 12.8 m/s^2 for each m/s of wrong climb then, and 7 by lasers or with an IMU") {
+    const auto thrust = [](bool tilt_known, double climb, bool rates_known = false) {
+      Altitude a = landing_by_sonars();
+      a.in.estimate.rates_known = rates_known;
+      if (rates_known) a.in.estimate.lean_known = false;
+      a.in.estimate.tilt_known = tilt_known;
+      a.in.estimate.climb = climb;
+      return a.run();
+    };
+    CHECK(thrust(true, 0) - thrust(true, 0.1) == doctest::Approx(12.8 * 0.1 / g_earth));
+    CHECK(thrust(false, 0) - thrust(false, 0.1) == doctest::Approx(7 * 0.1 / g_earth));
+    CHECK(thrust(false, 0, true) - thrust(false, 0.1, true) == doctest::Approx(7 * 0.1 / g_earth));
+  }
+
+  TEST_CASE("one that leans, as sonars show, has not landed yet, as it would fall onto its other feet") {
+    const auto lands = [](bool tilt_known) {
+      jarol::tests::Logic logic;
+      logic.fly();
+      logic.press();
+      logic.in.estimate.rates_known = logic.in.estimate.attitude_known = false;
+      logic.in.estimate.lean_known = true;
+      logic.in.estimate.tilt_known = tilt_known;
+      logic.in.estimate.altitude = 0.01;
+      logic.in.estimate.pitch = 0.2;
+      logic.run(60);
+      return logic.run(23);
+    };
+    CHECK(lands(true) == FlightState::landing);
+    CHECK(lands(false) == FlightState::ground);
+  }
+}
