@@ -170,14 +170,8 @@ struct AltitudeControl {
     OnGround ground{};
     BlindSinking blind{};
     QuickLanding quick{};
-    QuickLanding by_sonars{.kp = 16.5,
-                           .kd = 12.8,
-                           .low = 0.116,
-                           .touch_speed = 0.13,
-                           .drift = 0.61,
-                           .cut = 1.16,
-                           .back = 0.11,
-                           .up = -0.5};
+    QuickLanding by_sonars{
+        .kp = 16.5, .kd = 12.8, .low = 0.116, .touch_speed = 0.13, .drift = 0.4, .cut = 1.16, .back = 0.11, .up = -0.5};
     static constexpr auto fields() {
       using P = Param;
       return describe(
