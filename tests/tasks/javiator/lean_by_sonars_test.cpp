@@ -236,10 +236,10 @@ TEST_SUITE("tasks/lean_by_sonars") {
   TEST_CASE("one that hovers still without an IMU, its sonar reporting the same each time, believes that") {
     for (const bool tilt_known : {false, true}) {
       jarol::tests::HeardHelicopter heard;
-      heard.param.sonar_repeats = 6;
       heard.lift_to(1);
       heard.sensors.new_imu = false;
       heard.run(10);
+      heard.param.sonar_repeats = 6;
       // it takes what carries it for less than that is
       const BlindMotion blind{.lift = g_earth - 0.3, .known = true, .tilt_known = tilt_known};
       for (int i = 0; i < 100; ++i) {
