@@ -41,16 +41,13 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   if (!state.lifted) return leave_ground(step);
   out.lift.stands = false;
   const bool quick = e.lean_known && e.altitude_known;
-  if (!e.rates_known && !quick) {
-    state.foot_cut = 0;
-    return sink_blind(step);
-  }
+  if (!e.rates_known && !quick) return sink_blind(step);
 
   state.blind_trim = state.blind_cut = 0;
   // on its feet lasers do not show how it leans
   const QuickLanding& q = e.tilt_known ? p.by_sonars : p.quick;
-  const bool may_stand = e.tilt_known ? e.touches : e.altitude < q.contact;
-  const bool touches = quick && may_stand && d.state == FlightState::landing;
+  const bool is_low = e.tilt_known ? e.touches : e.altitude < q.contact;
+  const bool touches = quick && is_low && d.state == FlightState::landing;
   if (touches)
     state.foot_cut = std::min(state.foot_cut + q.cut * dt, p.limits.max_thrust);
   else

@@ -44,6 +44,7 @@ void sink_blind(const AltitudeStep& step) {
   const BlindSinking& b = p.blind;
   const bool measured = e.altitude_known && e.answers_known;
   const double excess = -b.speed - e.climb;  // of its descent
+  state.foot_cut = 0;
   // where it is lost in the climb that thrust is half learnt
   state.blind_trim =
       measured ? limited(state.blind_trim + b.ki * excess * dt, b.max_trim) : std::min(state.blind_trim, 0.0);

@@ -54,10 +54,12 @@ struct BlindHold {
 ///   theta_d = -atan((cos(psi) a_north + sin(psi) a_east) / g),         |theta_d| <= lean_limit
 /// (a thrust that carries the weight, leaning so, accelerates it by a). Without an IMU kp and kd are blind_kp and
 /// blind_kd, or those of by_sonars, and a landing leans less near the ground: by (1 - touch.lean) less from touch.over
-/// above touch.low down to that; where a foot may stand by its sonars it levels. A landing without a place brakes: a =
-/// -v - drag. By hand the pilot's roll and pitch are meant from the heading of take-off: phi_d = roll cos(yaw) + pitch
-/// sin(yaw), theta_d = pitch cos(yaw) - roll sin(yaw). Standing it levels: phi_d_dot = -phi_d / stand_time, and theta_d
-/// alike.
+/// above touch.low down to that. A landing without a place brakes by
+///   a      = -v - drag
+/// By hand the pilot's roll and pitch are meant from the heading of take-off:
+///   phi_d  = roll cos(yaw) + pitch sin(yaw),   theta_d = pitch cos(yaw) - roll sin(yaw)
+/// Standing, and in a landing where a foot may stand by its sonars, it levels:
+///   phi_d_dot = -phi_d / stand_time,           theta_d_dot = -theta_d / stand_time
 struct PositionControl {
   static constexpr std::string_view summary = "holds a place by leaning towards it, or leans as the pilot says";
   struct Param {

@@ -211,7 +211,10 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
                         .skew = range * R_now(1 - fix.axis, along),
                         .range = range * R_now(fix.axis, along),
                         .is_new = !(is_blind && blind.turns)};
-    if (is_blind) return void(axis.since = blind.turns ? axis.since : 0);
+    if (is_blind) {
+      if (!blind.turns) axis.since = 0;
+      return;
+    }
     const double doubt = range * R_now(1 - fix.axis, along) * rates.z() * p.age.spread / p.age.noise;
     correct(axis, fix.place - zero, p.bandwidth / (1 + doubt * doubt));  // slower, and damped as well as ever
   };

@@ -133,7 +133,6 @@ TEST_SUITE("tasks/lean_by_sonars") {
     BySonars learns;
     learns.in.estimate.p = 0.5;
     learns.lose_imu(0.1 - 0.5 * 0.02, 0);
-    learns.in.estimate.roll = 0;
     CHECK(learns.state.level.roll == doctest::Approx(0.1).epsilon(0.02).scale(0));
   }
 
