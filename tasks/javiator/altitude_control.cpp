@@ -61,9 +61,14 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
     approach(state.z, d.altitude, p.approach, dt);
   }
   const double felt = e.lift / gravity;
-  if (!quick) learn_trim(step, felt, comes_down);
-  state.aloft = std::min(state.aloft + dt, p.mean_time);
-  state.mean_trim += (state.trim - state.mean_trim) * dt / state.aloft;
+  if (quick) {
+    // the gust that it last felt passes
+    state.trim += (state.mean_trim - state.trim) * dt / (q.fade + dt);
+  } else {
+    learn_trim(step, felt, comes_down);
+    state.aloft = std::min(state.aloft + dt, p.mean_time);
+    state.mean_trim += (state.trim - state.mean_trim) * dt / state.aloft;
+  }
 
   double& thrust = out.lift.thrust;
   const double error = state.z.place - e.altitude;

@@ -22,6 +22,7 @@ struct QuickLanding {
   double low = 0.1;
   double touch_speed = 0.15;
   double drift = 0.7;
+  double fade = 1;
   double contact = 0.045;
   double cut = 1.4;
   double back = 1000;
@@ -38,6 +39,8 @@ struct QuickLanding {
         field<&Q::touch_speed>("m/s", "of its last part"),
         field<&Q::drift>("m/s", "to the side, beyond which it descends more slowly, at twice of it by touch_speed")
             .in(0.01, 100),
+        field<&Q::fade>("s",
+                        "in which a third is left of the thrust against the gust that it last felt, beside its mean"),
         field<&Q::contact>("m",
                            "altitude from which on thrust is taken back: a foot may stand; where sonars show how it "
                            "leans, they show when"),
@@ -137,8 +140,9 @@ struct AltitudeLimits {
 ///   expected_dot = (thrust - trim - expected) / lift_lag
 /// phi and theta are roll and pitch, lift the specific force that the accelerometer feels upwards along the body's axis
 /// (m/s^2), and trim what hover takes: an observer of the disturbance of thrust. On one foot, while it comes down, trim
-/// falls at unload times the time on that foot; in a quick landing it stays. These equations are this project's; those
-/// of the JAviator's own controller (github.com/cksystemsgroup/JAviator) are in original_control.h.
+/// falls at unload times the time on that foot; in a quick landing nobody feels lift, and the gust that was felt last
+/// passes: trim_dot = (mean - trim) / fade, of its mean over mean_time up to then. These equations are this project's;
+/// those of the JAviator's own controller (github.com/cksystemsgroup/JAviator) are in original_control.h.
 struct AltitudeControl {
   static constexpr std::string_view summary = "takes off softly, holds a commanded altitude, and lands softly";
   struct Param {
@@ -165,13 +169,20 @@ struct AltitudeControl {
     double max_descent_change = 2;
     double max_below = 0.15;
     double first_aloft = 0.4;
-    double mean_time = 1.0;
+    double mean_time = 4.0;
     AltitudeLimits limits{};
     OnGround ground{};
     BlindSinking blind{};
     QuickLanding quick{};
-    QuickLanding by_sonars{
-        .kp = 16.5, .kd = 12.8, .low = 0.116, .touch_speed = 0.13, .drift = 0.4, .cut = 1.16, .back = 0.11, .up = -0.5};
+    QuickLanding by_sonars{.kp = 18.9,
+                           .kd = 14.1,
+                           .low = 0.153,
+                           .touch_speed = 0.175,
+                           .drift = 0.35,
+                           .fade = 0.9,
+                           .cut = 1.4,
+                           .back = 0.11,
+                           .up = -0.25};
     static constexpr auto fields() {
       using P = Param;
       return describe(
@@ -223,16 +234,17 @@ struct AltitudeControl {
     bool lifted = false;
     static constexpr auto fields() {
       using S = State;
-      return describe(field<&S::z>(), field<&S::trim>("", "thrust at rest, learnt"),
-                      field<&S::mean_trim>("", "over the last second aloft, with what hover takes at first"),
-                      field<&S::expected>("", "thrust that should be felt now, less the trim"),
-                      field<&S::sunk>("m/s^2", "acceleration that makes up for a lasting error of altitude"),
-                      field<&S::blind_trim>("", "correction of the mean, learnt blind"),
-                      field<&S::blind_cut>("", "thrust that is taken back, blind"),
-                      field<&S::foot_cut>("", "thrust that is taken back where a foot may stand, without an IMU"),
-                      field<&S::aloft>("s", "over which that mean is, up to 1: 0.4 of hover's at first"),
-                      field<&S::landing>("s", "since it began to land"), field<&S::on_foot>("s", "of that on one foot"),
-                      field<&S::lifted>("", "it has left the ground"));
+      return describe(
+          field<&S::z>(), field<&S::trim>("", "thrust at rest, learnt"),
+          field<&S::mean_trim>("", "over mean_time aloft, with what hover takes at first"),
+          field<&S::expected>("", "thrust that should be felt now, less the trim"),
+          field<&S::sunk>("m/s^2", "acceleration that makes up for a lasting error of altitude"),
+          field<&S::blind_trim>("", "correction of the mean, learnt blind"),
+          field<&S::blind_cut>("", "thrust that is taken back, blind"),
+          field<&S::foot_cut>("", "thrust that is taken back where a foot may stand, without an IMU"),
+          field<&S::aloft>("s", "over which that mean is, up to mean_time: first_aloft of hover's at first"),
+          field<&S::landing>("s", "since it began to land"), field<&S::on_foot>("s", "of that on one foot"),
+          field<&S::lifted>("", "it has left the ground"));
     }
   };
   struct Out {

@@ -76,20 +76,20 @@ void PositionControl::run(const Param& p, const Tick& tick, const In& in, State&
     out.goal.pitch = limited(-std::atan((c * a_x + s * a_y) / gravity), p.lean_limit);
   };
 
-  const auto level = [&] {
-    out.goal.roll -= out.goal.roll * dt / p.stand_time;
-    out.goal.pitch -= out.goal.pitch * dt / p.stand_time;
+  const auto level = [&](double time) {
+    out.goal.roll -= out.goal.roll * dt / time;
+    out.goal.pitch -= out.goal.pitch * dt / time;
   };
 
   // level where it stands, not so fast that its feet slap
   if (d.stands) {
     state.holding = false;
-    level();
+    level(p.stand_time);
     out.goal.yaw = e.yaw;
     return;
   }
   // the ground moves it now, and what is known of its place and speed is worth little
-  if (d.state == FlightState::landing && e.touches) return level();
+  if (d.state == FlightState::landing && e.touches) return level(p.by_sonars.level_time);
   // landing without a place it brakes by what it still knows of its speed
   if (d.state == FlightState::landing && !d.hold_position) {
     state.holding = false;
@@ -115,8 +115,10 @@ void PositionControl::run(const Param& p, const Tick& tick, const In& in, State&
   approach(state.x, d.x, p.approach, dt);
   approach(state.y, d.y, p.approach, dt);
   const HoldGains gains = gains_of(p, e);
-  const double a_x = hold(p, gains, state.x, {e.x, e.v_x, state.drag_x}, state.trim_x, dt);
-  const double a_y = hold(p, gains, state.y, {e.y, e.v_y, state.drag_y}, state.trim_y, dt);
+  // levelling before the touch then lets the wind stop it, and does not drive it over its feet
+  const double upwind = e.tilt_known && d.state == FlightState::landing ? p.by_sonars.upwind : 0;
+  const double a_x = hold(p, gains, state.x, {e.x, e.v_x + upwind * state.drag_x, state.drag_x}, state.trim_x, dt);
+  const double a_y = hold(p, gains, state.y, {e.y, e.v_y + upwind * state.drag_y, state.drag_y}, state.trim_y, dt);
   lean(a_x, a_y);
   if (!e.lean_known || d.state != FlightState::landing) return;
   const double part = lean_part(e.tilt_known ? p.by_sonars.touch : p.touch, e.altitude);

@@ -34,14 +34,18 @@ struct BlindTouch {
 
 /// How it holds its place without an IMU, when sonars show how it leans.
 struct BlindHold {
-  double kp = 1.7;
-  double kd = 3.6;
-  BlindTouch touch{.lean = 0.66, .low = 0.037, .over = 0.033};
+  double kp = 1.4;
+  double kd = 4;
+  double upwind = 0.3;
+  double level_time = 0.13;
+  BlindTouch touch{.lean = 0.4, .low = 0.038, .over = 0.059};
 
   static constexpr auto fields() {
     using B = BlindHold;
     return describe(field<&B::kp>("1/s^2", "acceleration per error of place"),
                     field<&B::kd>("1/s", "acceleration per error of speed"),
+                    field<&B::upwind>("s", "speed against the wind as it lands, per acceleration of its drag"),
+                    field<&B::level_time>("s", "in which it levels where a foot may stand").in(0.02, 100),
                     field<&B::touch>("", "how it touches the ground"));
   }
 };
@@ -60,6 +64,10 @@ struct BlindHold {
 ///   phi_d  = roll cos(yaw) + pitch sin(yaw),   theta_d = pitch cos(yaw) - roll sin(yaw)
 /// Standing, and in a landing where a foot may stand by its sonars, it levels:
 ///   phi_d_dot = -phi_d / stand_time,           theta_d_dot = -theta_d / stand_time
+/// there in by_sonars.level_time. Such a landing that holds a place goes against the wind, v_d being less by
+/// by_sonars.upwind drag, until it levels and the wind stops it (kp and ki bring it back, so it does for some 3 s):
+/// leaning into the wind it touches with its windward foot first, and one that drifts with the wind would be turned
+/// over that foot onto the opposite one.
 struct PositionControl {
   static constexpr std::string_view summary = "holds a place by leaning towards it, or leans as the pilot says";
   struct Param {

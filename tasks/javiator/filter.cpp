@@ -1,3 +1,4 @@
+// In one file: what one period makes of all that is heard, step by step.
 #include "tasks/javiator/filter.h"
 
 #include <algorithm>
@@ -19,6 +20,23 @@ constexpr std::int64_t longest_pause = 100;  // activations: after more of them 
 constexpr double nowhere = 1e9;              // m
 
 bool is_near(const AxisObserver& axis, double measured, double jump) { return std::abs(measured - axis.place) < jump; }
+
+struct Below {
+  double range;
+  bool is_new, is_plane;
+};
+
+// The range reported for all is between the four: what two of them see wrongly moves it, and where they see no plane
+// it is passed over for a while.
+Below look_below(const JaviatorFilter::Param& p, const JaviatorFilter::In& in, bool tilt_known, bool new_sonar,
+                 JaviatorFilter::State& state) {
+  const bool new_ranges = std::exchange(state.before.ranges, in.sonars.readings) != in.sonars.readings;
+  const bool is_plane = tilt_known && new_ranges && see_plane(p.unfelt.plane, in.sonars);
+  const bool waits = tilt_known && state.z.since < p.unfelt.patience;
+  if (!is_plane && !waits) return {in.sensors.sonar, new_sonar, false};
+  const auto& [front, right, rear, left] = in.sonars.ranges;
+  return {0.25 * (front + right + rear + left), is_plane, is_plane};
+}
 
 // In one period.
 void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& in, bool was_left_out,
@@ -124,11 +142,13 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
                : Vector3d(R.transpose() * Vector3d(0, 0, -gravity));
   const Vector3d force_b = turns ? last_b : Vector3d(hover_b + felt * (last_b - hover_b));
   const Vector3d a = R * force_b + Vector3d(0, 0, gravity);
-  const double z = (R * Vector3d(p.sonar_x, p.sonar_y, p.sonar_z + s.sonar)).z();
   const double last_pressure = state.pressure.last;
   const bool new_x = hear(state.laser_x, fresh && s.new_x, s.laser_x, p.laser_repeats, heard_dt);
   const bool new_y = hear(state.laser_y, fresh && s.new_y, s.laser_y, p.laser_repeats, heard_dt);
-  const bool new_z = hear(state.sonar, fresh && s.new_sonar, s.sonar, p.repeats, heard_dt);
+  const bool new_sonar = hear(state.sonar, fresh && s.new_sonar, s.sonar, p.repeats, heard_dt);
+  const bool tilt_known = is_blind && blind.tilt_known;
+  const Below below = look_below(p, in, tilt_known && !settled, new_sonar, state);
+  const double z = (R * Vector3d(p.sonar_x, p.sonar_y, p.sonar_z + below.range)).z();
   const bool new_pressure = hear(state.pressure, fresh && s.new_bmu, s.pressure, p.repeats, heard_dt);
   if (settled) {
     if (s.answers > 0) {
@@ -136,8 +156,8 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
       rest(state.y, a.y(), p.drift.rest);
       rest(state.z, -a.z(), p.drift.rest);
     }
-    forgive(state.sonar, new_z);
-    if (new_z) settle(state.z, state.zero_z, z, state.has_flown, p.drift.rest);
+    forgive(state.sonar, below.is_new);
+    if (below.is_new) settle(state.z, state.zero_z, z, state.has_flown, p.drift.rest);
     forgive(state.pressure, new_pressure);
     if (new_pressure && state.pressure.repeats == 0) learn(state.ground, s.pressure, last_pressure, p.drift.rest);
     state.disagreement = 0;
@@ -147,19 +167,20 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
     predict(state.y, a.y(), dt);
     predict(state.z, -a.z(), dt);
     predict(state.z_slow, -a.z(), dt);
-    if (state.anew.begins && (new_z || state.sonar.lost)) {
+    if (state.anew.begins && (below.is_new || state.sonar.lost)) {
       const double first = std::exchange(state.anew.first, z);
       state.anew.begins = !state.sonar.lost && std::abs(z - first) > p.range_jump;  // one alone may be wrong
       if (!state.anew.begins && !state.sonar.lost) state.z = state.z_slow = {.place = z - state.zero_z, .since = dt};
       state.disagreement = 0;
     }
-    const double jump = state.imu.lost && !is_blind ? p.range_jump : p.sonar_jump + p.sonar_jump_rate * state.z.since;
-    const bool credible = new_z && is_near(state.z, z - state.zero_z, std::min(jump, p.range_jump));
+    const bool wide = below.is_plane || (state.imu.lost && !is_blind);
+    const double jump = wide ? p.range_jump : p.sonar_jump + p.sonar_jump_rate * state.z.since;
+    const bool credible = below.is_new && is_near(state.z, z - state.zero_z, std::min(jump, p.range_jump));
     const bool had_sonar = !state.sonar.lost;
     // blind, nothing else shows its altitude: a hover that is still is no sonar that is stuck
     const bool repeats = !is_blind && p.sonar_repeats > 0 && state.sonar.repeats >= p.sonar_repeats;
     if (believe(state.sonar, credible, p.patience) && !repeats) {
-      if (is_blind && blind.tilt_known)
+      if (tilt_known)
         track(state.z, z - state.zero_z, p.unfelt.climb);
       else
         correct(state.z, z - state.zero_z, is_blind ? p.unfelt.bandwidth : p.bandwidth);
@@ -170,7 +191,7 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
     if (new_pressure && std::abs(s.pressure - last_pressure) > credible_step(state, p)) state.pressure.lost = true;
     if (believe(state.pressure, new_pressure, p.patience) && !state.anew.begins) weigh_pressure(state, p, s.pressure);
     // what it has learnt of late may be what is wrong with the sonar
-    const bool begins_to_repeat = new_z && p.sonar_repeats > 0 && state.sonar.repeats == p.sonar_repeats;
+    const bool begins_to_repeat = below.is_new && p.sonar_repeats > 0 && state.sonar.repeats == p.sonar_repeats;
     if (is_blind) {
       state.z_slow = state.z;  // what is not felt leads it nowhere
     } else if (had_sonar && (state.sonar.lost || begins_to_repeat)) {
@@ -226,7 +247,6 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
   if (!settled && unseen >= p.unseen.max_time) state.laser_x.lost = state.laser_y.lost = true;
 
   const bool answers = state.unanswered <= p.imu_patience;
-  const bool tilt_known = is_blind && blind.tilt_known;
   // an accelerometer in flight feels the rotors along their axis, and drag across it
   const Vector3d drag = R * Vector3d(force_b.x(), force_b.y(), 0);
   e = {.roll = state.roll + p.age.imu * rates.x() - in.directive.trim_roll,
@@ -274,6 +294,7 @@ void JaviatorFilter::run(const Param& p, const Tick& tick, const In& in, State& 
     // as if no answer had come meanwhile; what it last heard then is not kept, so rates and forces are those of now
     In unheard = in;
     unheard.sensors.answers = state.before.answers;
+    unheard.sonars.readings = state.before.ranges;
     for (std::int64_t i = 0; i < std::min(left_out, longest_pause); ++i) step(p, dt, unheard, true, state, out);
   }
   step(p, dt, in, left_out > 0, state, out);

@@ -8,6 +8,7 @@
 #include "tasks/javiator/observers.h"
 #include "tasks/javiator/room.h"
 #include "tasks/javiator/sensor_trust.h"
+#include "tasks/javiator/sonar_tilt.h"
 #include "tasks/values/javiator.h"
 
 namespace jarol::tasks {
@@ -61,7 +62,9 @@ struct UnfeltMotion {
   double gap = 0.1;
   double rate = 2;
   double bandwidth = 20;
-  UnfeltClimb climb{};
+  SonarPlane plane{};
+  double patience = 0.15;
+  UnfeltClimb climb{.push = 1.2, .noise = 0.0038};
   FootStand stand{};
 
   static constexpr auto fields() {
@@ -71,6 +74,8 @@ struct UnfeltMotion {
                        "without the IMU, more than a few lost packets, from which on it may have turned unforeseen"),
         field<&U::rate>("rad/s", "of that turn"),
         field<&U::bandwidth>("rad/s", "of the observer of altitude where lasers show how it leans, in gusts"),
+        field<&U::plane>("", "that four sonars see: where they show how it leans, its altitude is that of the plane"),
+        field<&U::patience>("s", "without one, before it is that of the range reported for all of them"),
         field<&U::climb>("", "where sonars do"), field<&U::stand>("", "and where it touches the ground then"));
   }
 };
@@ -78,13 +83,13 @@ struct UnfeltMotion {
 /// What the filter goes on from.
 struct Before {
   std::int64_t activation = -1;
-  std::uint32_t answers = 0;
+  std::uint32_t answers = 0, ranges = 0;
   bool stood = false;
 
   static constexpr auto fields() {
     using B = Before;
     return describe(field<&B::activation>("", "that ran last"), field<&B::answers>("", "of the Robostix, up to then"),
-                    field<&B::stood>());
+                    field<&B::ranges>("", "of all four sonars, up to then"), field<&B::stood>());
   }
 };
 
@@ -130,8 +135,10 @@ struct ReadingAge {
 ///   altitude:   z of R_nb (sonar_x, sonar_y, sonar_z + range), from where it stood, corrects the third of them
 ///   place:      find_place (room.h) of each laser's range with the rotation at that time, the first two
 ///   drift:      a second observer upwards, and a SlowAngle of roll and pitch, hardly corrected (filter_checks.h)
-///   blind:      where sonars show how it leans altitude is tracked (observers.h, UnfeltClimb), and a foot may stand
-///               (foot_stand.h)
+///   blind:      where sonars show how it leans range is the mean of the four where they see a plane (sonar_tilt.h),
+///   and the
+///               one reported only after unfelt.patience without one; altitude is tracked (observers.h, UnfeltClimb),
+///               and a foot may stand (foot_stand.h)
 ///   pressure:   h = (mean on the ground - pressure) / pascal_per_metre; without a sonar, e being h - z at a reading,
 ///               z += pressure_place e,   climb += pressure_speed e
 /// Between readings of the IMU rates and forces fade by e^(-since / fade), rates to 0 and f_b to R_nb^T (0, 0, -g). The
@@ -180,7 +187,8 @@ struct JaviatorFilter {
           field<&P::patience>("s", "without a credible measurement before a sensor counts as lost"),
           field<&P::imu_patience>("s", "the same, for the IMU"),
           field<&P::unseen>("", "where no laser sees along an axis"),
-          field<&P::range_jump>("m", "from the estimate at which a range is not credible"),
+          field<&P::range_jump>("m",
+                                "from the estimate at which a range is not credible, or a plane that four sonars see"),
           field<&P::sonar_jump>("m", "the same, of the sonar right after a credible range"),
           field<&P::sonar_jump_rate>("m/s", "at which that grows until the next one, up to that of any range"),
           field<&P::angle_jump>("rad", "the same, for roll and pitch"),
@@ -204,9 +212,11 @@ struct JaviatorFilter {
     JaviatorSensors sensors{};
     FlightDirective directive{};
     BlindMotion blind{};
+    SonarRanges sonars{};
     static constexpr auto fields() {
       return describe(field<&In::sensors>(), field<&In::directive>("", "of the period before"),
-                      field<&In::blind>("", "what it does when the IMU is lost"));
+                      field<&In::blind>("", "what it does when the IMU is lost"),
+                      field<&In::sonars>("", "of each, where they are reported"));
     }
   };
   struct State {

@@ -43,7 +43,11 @@ bool may_fall(const FlightLogic::Param& p, const FlightEstimate& e, double thrus
 // demanded.
 double touch_time(const FlightLogic::Param& p, const FlightEstimate& e, double thrust) {
   if (e.altitude_known && e.altitude >= p.high) return p.high_time;
-  return may_fall(p, e, thrust) ? p.doubt_time : p.touch_time;
+  // an updraft may hold it up with little thrust, or nearly still: where its sonars show no foot on the ground that it
+  // left it takes both, as on ground that is higher
+  const bool no_foot_stands = e.tilt_known && !e.touches;
+  if (no_foot_stands && !(thrust < p.light && std::abs(e.climb) < p.still)) return p.high_time;
+  return no_foot_stands || may_fall(p, e, thrust) ? p.doubt_time : p.touch_time;
 }
 
 // Its rotors give what they can, and it does not rise.

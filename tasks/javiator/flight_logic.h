@@ -102,7 +102,11 @@ struct FlightLogic {
           field<&P::level>("rad", "of lean, beyond which it may stand on one foot").in(0, std::numbers::pi),
           field<&P::touch_time>("s", "for which it is still or light when it has touched down").in(0.001, 100),
           field<&P::doubt_time>("s", "the same, where it may hover or stand on one foot").in(0.01, 100),
-          field<&P::high_time>("s", "the same, where it measures that it is above `high`").in(0.01, 100),
+          field<&P::high_time>(
+              "s",
+              "the same, where it measures that it is above `high`, or by its sonars that no foot stands, "
+              "unless it is both still and light: then doubt_time")
+              .in(0.01, 100),
           field<&P::out_of_control>("rad",
                                     "of lean that the IMU shows, beyond which a landing ends with the motors locked")
               .in(0, std::numbers::pi),

@@ -39,9 +39,10 @@ struct OriginalFilter {
     JaviatorSensors sensors{};
     FlightDirective directive{};
     BlindMotion blind{};
+    SonarRanges sonars{};
     static constexpr auto fields() {
       return describe(field<&In::sensors>(), field<&In::directive>("", "of the period before"),
-                      field<&In::blind>("", "not looked at"));
+                      field<&In::blind>("", "not looked at"), field<&In::sonars>("", "not looked at"));
     }
   };
   struct State {

@@ -9,12 +9,27 @@
 
 namespace jarol::tasks {
 
+/// Four sonars over a plane: the filter looks for it with one of these, and the observer without an IMU with another.
+struct SonarPlane {
+  double reach = 2.9;
+  double jump = 0.03;
+
+  static constexpr auto fields() {
+    using S = SonarPlane;
+    return describe(
+        field<&S::reach>("m", "of a sonar: what is further off it does not see").in(0, 100),
+        field<&S::jump>("m", "by which two opposite ranges together may differ from the other two").in(0, 10));
+  }
+};
+
+/// Whether all see something, and it lies in one plane: front + rear = right + left.
+bool see_plane(const SonarPlane& p, const SonarRanges& sonars);
+
 /// Of the sonars front, right, rear and left, `arm` from the axis, which look along the body's z.
 struct TiltBySonars {
   double arm = 0.2;
-  double reach = 2.9;
-  double jump = 0.03;
-  double noise = 0.015;
+  SonarPlane plane{};
+  double noise = 0.009;
   double age = 0.02;
   double mean_time = 2;
   double patience = 0.3;
@@ -23,9 +38,7 @@ struct TiltBySonars {
   static constexpr auto fields() {
     using T = TiltBySonars;
     return describe(
-        field<&T::arm>("m", "of each sonar from the axis").in(0.01, 10),
-        field<&T::reach>("m", "of a sonar: what is further off it does not see").in(0, 100),
-        field<&T::jump>("m", "by which two opposite ranges together may differ from the other two").in(0, 10),
+        field<&T::arm>("m", "of each sonar from the axis").in(0.01, 10), field<&T::plane>("", "that they see"),
         field<&T::noise>("rad", "standard deviation of roll and pitch").in(1e-4, 1),
         field<&T::age>("s", "of ranges when they are used").in(0, 1),
         field<&T::mean_time>("s", "over which what roll and pitch of the IMU differ by is averaged").in(1, 1000),
@@ -39,7 +52,7 @@ struct Tilt {
 };
 
 /// The ranges r of a plane below: tan(roll) = (left - right) / 2 arm, tan(pitch) = cos(roll) (front - rear) / 2 arm.
-/// Nothing where they do not lie in one, front + rear not being right + left, or one sees nothing.
+/// Nothing where they see none.
 std::optional<Tilt> find_tilt(const TiltBySonars& p, const SonarRanges& sonars);
 
 }  // namespace jarol::tasks

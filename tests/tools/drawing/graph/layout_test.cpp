@@ -68,7 +68,7 @@ TEST_SUITE("drawing/layout") {
       CHECK(arrow.curve.back()[1] == doctest::Approx(to.y).epsilon(0.02).scale(0));
       connections += arrow.connections.size();
     }
-    CHECK(connections == 37);
+    CHECK(connections == 38);
   }
 
   TEST_CASE("distributers stand outside the core, where they send on its left") {
