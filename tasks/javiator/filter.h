@@ -135,10 +135,9 @@ struct ReadingAge {
 ///   altitude:   z of R_nb (sonar_x, sonar_y, sonar_z + range), from where it stood, corrects the third of them
 ///   place:      find_place (room.h) of each laser's range with the rotation at that time, the first two
 ///   drift:      a second observer upwards, and a SlowAngle of roll and pitch, hardly corrected (filter_checks.h)
-///   blind:      where sonars show how it leans range is the mean of the four where they see a plane (sonar_tilt.h),
-///   and the
-///               one reported only after unfelt.patience without one; altitude is tracked (observers.h, UnfeltClimb),
-///               and a foot may stand (foot_stand.h)
+///   blind:      where sonars show how it leans range is the mean of the four that see a plane (sonar_tilt.h), and the
+///               one reported only after unfelt.patience without; altitude is tracked (observers.h, UnfeltClimb), and a
+///               foot may stand (foot_stand.h)
 ///   pressure:   h = (mean on the ground - pressure) / pascal_per_metre; without a sonar, e being h - z at a reading,
 ///               z += pressure_place e,   climb += pressure_speed e
 /// Between readings of the IMU rates and forces fade by e^(-since / fade), rates to 0 and f_b to R_nb^T (0, 0, -g). The

@@ -64,6 +64,8 @@ TEST_SUITE("tasks/ranges") {
         {{"room", "sight", "corner"}, "a double [m] from 0 to 100", "-1"},
         {{"room", "sight", "place_error"}, "a double [m] from 0 to 100", "-1"},
         {{"room", "sight", "grazing"}, "a double from 0 to 1", "2"},
+        {{"unfelt", "plane", "reach"}, "a double [m] from 0 to 100", "-1"},
+        {{"unfelt", "plane", "jump"}, "a double [m] from 0 to 10", "-1"},
         {{"unfelt", "climb", "push"}, "a double [m/s^2] from 0.001 to 1000", "0"},
         {{"unfelt", "climb", "noise"}, "a double [m] from 1e-06 to 1", "0"},
         {{"unfelt", "stand", "foot"}, "a double [m] from 0.01 to 10", "0"},

@@ -23,6 +23,18 @@ Altitude landing_by_sonars() {
   a.in.directive.state = FlightState::landing;
   return a;
 }
+
+// One that lands without an IMU.
+jarol::tests::Logic landing_blind(bool tilt_known, double altitude) {
+  jarol::tests::Logic logic;
+  logic.fly();
+  logic.press();
+  logic.in.estimate.rates_known = logic.in.estimate.attitude_known = false;
+  logic.in.estimate.lean_known = true;
+  logic.in.estimate.tilt_known = tilt_known;
+  logic.in.estimate.altitude = altitude;
+  return logic;
+}
 }  // namespace
 
 TEST_SUITE("tasks/landing_by_sonars") {
@@ -161,13 +173,7 @@ TEST_SUITE("tasks/landing_by_sonars") {
 
   TEST_CASE("one that leans, as sonars show, has not landed yet, as it would fall onto its other feet") {
     const auto lands = [](bool tilt_known) {
-      jarol::tests::Logic logic;
-      logic.fly();
-      logic.press();
-      logic.in.estimate.rates_known = logic.in.estimate.attitude_known = false;
-      logic.in.estimate.lean_known = true;
-      logic.in.estimate.tilt_known = tilt_known;
-      logic.in.estimate.altitude = 0.01;
+      jarol::tests::Logic logic = landing_blind(tilt_known, 0.01);
       logic.in.estimate.pitch = 0.2;
       logic.run(60);
       return logic.run(23);
@@ -178,14 +184,8 @@ TEST_SUITE("tasks/landing_by_sonars") {
 
   TEST_CASE("an updraft holds it up with little thrust: still, but above where a foot stands, it has not landed") {
     const auto lands_after = [](double thrust, bool tilt_known, bool touches) {
-      jarol::tests::Logic logic;
-      logic.fly();
-      logic.press();
-      logic.in.estimate.rates_known = logic.in.estimate.attitude_known = false;
-      logic.in.estimate.lean_known = true;
-      logic.in.estimate.tilt_known = tilt_known;
+      jarol::tests::Logic logic = landing_blind(tilt_known, 0.15);
       logic.in.estimate.touches = touches;
-      logic.in.estimate.altitude = 0.15;
       logic.in.lift.thrust = thrust;
       int periods = 0;
       while (logic.run(1) == FlightState::landing && periods < 1000) ++periods;
