@@ -76,15 +76,17 @@ test('a task is added, connected by the mouse and by the form, renamed and remov
   await picture(shown, 'add_light');
   await shown.fill('type', 'JaviatorFilter', 'dialog');
   await shown.press('Add');
-  await drawn(shown, 'task javiator_filter, JaviatorFilter, every 15ms, 3 problems');
+  await drawn(shown, 'task javiator_filter, JaviatorFilter, every 15ms, 4 problems');
   assert.equal(await shown.source(), before.replace(/( +report: +\{type: HelicopterReporter.*\n)/, '$1  javiator_filter: {type: JaviatorFilter}\n'));
-  await shown.says('3 problems');
+  await shown.says('4 problems');
   await picture(shown, 'problems_light');
   // two nodes that fit in one way only
   await shown.page.drag(await shown.place('in from_robostix', '.handle'), await shown.place('task javiator_filter'));
-  await shown.says('2 problems');
+  await shown.says('3 problems');
   assert.match(await shown.source(), /  - from_robostix -> javiator_filter\.sensors\n/);
   await shown.choose_part('task javiator_filter');
+  await shown.fill('source of javiator_filter.sonars', 'from_sonars');
+  await shown.says('2 problems');
   await shown.fill('source of javiator_filter.directive', 'logic.directive');
   await shown.says('1 problem');
   await shown.fill('source of javiator_filter.blind', 'blind.motion');
