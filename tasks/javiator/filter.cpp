@@ -157,7 +157,7 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
       rest(state.z, -a.z(), p.drift.rest);
     }
     forgive(state.sonar, below.is_new);
-    if (below.is_new) settle(state.z, state.zero_z, z, state.has_flown, p.drift.rest);
+    if (below.is_new) settle(state.z, state.zero_z, z, p.sonar_jump, state.has_flown, p.drift.rest);
     forgive(state.pressure, new_pressure);
     if (new_pressure && state.pressure.repeats == 0) learn(state.ground, s.pressure, last_pressure, p.drift.rest);
     state.disagreement = 0;
@@ -219,7 +219,7 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
     double& zero = *zeros[fix.axis];
     if (settled) {
       forgive(laser, heard && fix.seen);
-      if (heard && fix.seen) settle(axis, zero, fix.place, state.has_flown, p.drift.rest);
+      if (heard && fix.seen) settle(axis, zero, fix.place, p.range_jump, state.has_flown, p.drift.rest);
       return;
     }
     if (heard && fix.at_corner) return void(laser.silent = 0);  // that says nothing, and nothing of the laser

@@ -132,7 +132,8 @@ struct ReadingAge {
 ///   angles:     their rates are those of omega_b (rotations.h, euler_rates), and by each credible reading of the IMU
 ///               angle += angle_gain (measured - angle)
 ///   motion:     a_n = R_nb f_b + (0, 0, g), which an AxisObserver integrates for north, east and upwards (-a_z)
-///   altitude:   z of R_nb (sonar_x, sonar_y, sonar_z + range), from where it stood, corrects the third of them
+///   altitude:   z of R_nb (sonar_x, sonar_y, sonar_z + range), from where it stood, corrects the third of them; there
+///               a range counts that is within sonar_jump of the one before, and a laser's place within range_jump
 ///   place:      find_place (room.h) of each laser's range with the rotation at that time, the first two
 ///   drift:      a second observer upwards, and a SlowAngle of roll and pitch, hardly corrected (filter_checks.h)
 ///   blind:      where sonars show how it leans range is the mean of the four that see a plane (sonar_tilt.h), and the

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "graph/math/geometry.h"
 
@@ -46,10 +47,11 @@ void correct(SlowAngle& slow, double measured, double bandwidth, double dt) {
 }
 
 void rest(AxisObserver& axis, double acceleration, const RestLearning& by) {
-  axis = {.place = axis.place, .bias = axis.bias + by.bias_part * (acceleration - axis.bias)};
+  axis = {.place = axis.place, .bias = axis.bias + by.bias_part * (acceleration - axis.bias), .seen = axis.seen};
 }
 
-void settle(AxisObserver& axis, double& zero, double measured, bool has_flown, const RestLearning& by) {
+void settle(AxisObserver& axis, double& zero, double measured, double jump, bool has_flown, const RestLearning& by) {
+  if (std::abs(measured - std::exchange(axis.seen, measured)) > jump) return;
   if (has_flown) {
     axis.place += by.place_part * (measured - zero - axis.place);
   } else {

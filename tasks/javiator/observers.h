@@ -15,12 +15,13 @@ namespace jarol::tasks {
 /// Kalman Filtering Made Easy", 1998, section 1.3).
 struct AxisObserver {
   double place = 0, speed = 0, bias = 0;
-  double since = 0;
+  double since = 0, seen = 1e9;
 
   static constexpr auto fields() {
     using A = AxisObserver;
     return describe(field<&A::place>("m"), field<&A::speed>("m/s"), field<&A::bias>("m/s^2", "of the accelerometer"),
-                    field<&A::since>("s", "the last measurement"));
+                    field<&A::since>("s", "the last measurement"),
+                    field<&A::seen>("m", "where it stands, measured last; 1e9: nothing yet"));
   }
 };
 
@@ -109,8 +110,9 @@ void track(AxisObserver& axis, double measured, const UnfeltClimb& by);
 /// Standing still it does not move, and what it feels is the accelerometer's bias.
 void rest(AxisObserver& axis, double acceleration, const RestLearning& by);
 
-/// What is measured where it stands is averaged, as zero before the first flight and as the place after it.
-void settle(AxisObserver& axis, double& zero, double measured, bool has_flown, const RestLearning& by);
+/// What is measured (m) where it stands is averaged, as zero before the first flight and as the place after it, if it
+/// is within `jump` (m) of what was measured before: one that is wrong alone would be felt throughout the flight.
+void settle(AxisObserver& axis, double& zero, double measured, double jump, bool has_flown, const RestLearning& by);
 
 /// Where it takes off is zero.
 void take_off(AxisObserver& axis, double& zero);

@@ -110,10 +110,11 @@ TEST_SUITE("tools/what_if") {
 
 #ifdef JAROL_VEHICLES
   TEST_CASE("a vehicle that capsizes in a what-if stands in its report") {
-    const std::string output = command::run_jarol(
-                                   "run specs/javiator.yaml --for 15s --set expect=nothing --what-if 'at=8s "
-                                   "set=tasks.attitude.parameters.lean.kd=0 set=tasks.attitude.parameters.lean.kp=0'")
-                                   .output;
+    const std::string output =
+        command::run_jarol(
+            "run specs/javiator.yaml --for 15s --set expect=nothing --what-if 'at=8s "
+            "set=tasks.attitude.parameters.lean.kd=0 set=tasks.attitude.parameters.lean.kp=-0.35'")
+            .output;
     CHECK(line_with(output, "  failed").find("the vehicle of 'robostix' has capsized") != std::string::npos);
   }
 #endif

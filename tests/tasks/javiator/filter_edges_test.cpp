@@ -262,22 +262,6 @@ TEST_SUITE("tasks/javiator_filter/edges") {
     CHECK(heard.run(1).battery == doctest::Approx(15 - HeardHelicopter::dt));
   }
 
-  TEST_CASE("before the first flight a tenth of what is measured is taken for zero, after it for the place") {
-    HeardHelicopter heard;
-    heard.run(100);
-    heard.sensors.sonar += 0.01;
-    heard.sensors.a_z += 0.5;
-    heard.run(1);
-    CHECK(heard.state.zero_z == doctest::Approx(0.055 + 0.145 + 0.001));
-    CHECK(heard.state.z.bias == doctest::Approx(-0.02 * 0.5));
-    CHECK(heard.out.estimate.altitude == 0);
-    HeardHelicopter landed = hovering();
-    landed.directive.state = FlightState::ground;
-    landed.sensors.sonar = 0.145;
-    const double before = landed.state.z.place;
-    CHECK(landed.run(1).altitude == doctest::Approx(0.9 * before).scale(0).epsilon(1e-4));
-  }
-
   TEST_CASE("before the Robostix has answered there is no weight to compare with: its angles are not doubted") {
     HeardHelicopter heard;
     heard.sensors = {};

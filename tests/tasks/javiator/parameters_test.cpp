@@ -76,11 +76,11 @@ TEST_SUITE("tasks/javiator/parameters") {
     heard.directive.state = FlightState::ground;
     heard.sensors.laser_x -= 0.04;
     heard.sensors.laser_y -= 0.08;
-    heard.sensors.sonar += 0.12;
+    heard.sensors.sonar += 0.06;
     heard.run(1);
     CHECK(heard.state.x.place == doctest::Approx(0.01).scale(0).epsilon(1e-6));
     CHECK(heard.state.y.place == doctest::Approx(0.02).scale(0).epsilon(1e-6));
-    CHECK(heard.state.z.place == doctest::Approx(0.03).scale(0).epsilon(1e-6));
+    CHECK(heard.state.z.place == doctest::Approx(0.015).scale(0).epsilon(1e-6));
   }
 
   TEST_CASE("the voltage is averaged over the time that is given") {
