@@ -51,11 +51,15 @@ void rest(AxisObserver& axis, double acceleration, const RestLearning& by) {
 }
 
 void settle(AxisObserver& axis, double& zero, double measured, double jump, bool has_flown, const RestLearning& by) {
-  if (std::abs(measured - std::exchange(axis.seen, measured)) > jump) return;
+  const bool is_first = axis.seen == AxisObserver{}.seen;
+  const double step = measured - std::exchange(axis.seen, measured);
+  if (!is_first && std::abs(step) > jump) return;
   if (has_flown) {
     axis.place += by.place_part * (measured - zero - axis.place);
   } else {
-    zero += (zero == 0 ? 1 : by.place_part) * (measured - zero);
+    // two that agree deny what one alone began with
+    const bool begins = zero == 0 || std::abs(measured - zero) > jump;
+    zero += (begins ? 1 : by.place_part) * (measured - zero);
   }
 }
 

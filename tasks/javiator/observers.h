@@ -111,7 +111,8 @@ void track(AxisObserver& axis, double measured, const UnfeltClimb& by);
 void rest(AxisObserver& axis, double acceleration, const RestLearning& by);
 
 /// What is measured (m) where it stands is averaged, as zero before the first flight and as the place after it, if it
-/// is within `jump` (m) of what was measured before: one that is wrong alone would be felt throughout the flight.
+/// is within `jump` (m) of what was measured before: one that is wrong alone would be felt throughout the flight. The
+/// first counts at once, until two that agree deny it.
 void settle(AxisObserver& axis, double& zero, double measured, double jump, bool has_flown, const RestLearning& by);
 
 /// Where it takes off is zero.
