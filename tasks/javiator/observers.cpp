@@ -58,7 +58,7 @@ void settle(AxisObserver& axis, double& zero, double measured, double jump, bool
     axis.place += by.place_part * (measured - zero - axis.place);
   } else {
     // two that agree deny what one alone began with
-    const bool begins = zero == 0 || std::abs(measured - zero) > jump;
+    const bool begins = is_first || std::abs(measured - zero) > jump;
     zero += (begins ? 1 : by.place_part) * (measured - zero);
   }
 }

@@ -41,8 +41,6 @@ TEST_SUITE("tasks/javiator_filter/rest") {
     // one that is wrong alone, and the one after it
     const auto moved = [](double JaviatorSensors::*range, double off, double JaviatorFilter::State::*zero) {
       HeardHelicopter heard;
-      heard.sensors.laser_x -= 1;
-      heard.sensors.laser_y -= 1;
       heard.run(100);
       const double before = heard.state.*zero;
       heard.sensors.*range += off;
