@@ -12,10 +12,13 @@
 namespace jarol::tasks {
 namespace {
 
-// It leans as far as its altitude has room for: the ground carries a part of it by one foot.
-bool stands_on_foot(const AltitudeControl::Param& p, const FlightEstimate& e) {
+// It leans as far as its altitude has room for: the ground carries a part of it by one foot. By the pressure, which is
+// noisy, one that has stood on a foot does so until it is level.
+bool stands_on_foot(const AltitudeControl::Param& p, const FlightEstimate& e, bool has_stood) {
   const double lean = std::max(std::abs(e.roll), std::abs(e.pitch));
-  return e.altitude_known && lean > p.ground.level && may_stand({p.foot, p.ground.near}, e.roll, e.pitch, e.altitude);
+  if (lean <= p.ground.level) return false;
+  if (e.altitude_known) return may_stand({p.foot, p.ground.near}, e.roll, e.pitch, e.altitude);
+  return e.pressure_known && (has_stood || may_stand({p.foot, p.ground.near_by_pressure}, e.roll, e.pitch, e.altitude));
 }
 
 // sag of the battery, flow through the rotors, the ground: whatever thrust is lost or gained is felt at once
@@ -23,7 +26,7 @@ void learn_trim(const AltitudeStep& step, double felt, bool comes_down) {
   const auto& [p, e, d, dt, state, lift] = step;
   // what a foot carries is no thrust: learnt as such it would let the vehicle fall onto its other feet; but light
   // on its feet for long, wind turns it over
-  const bool on_foot = comes_down && stands_on_foot(p, e);
+  const bool on_foot = comes_down && stands_on_foot(p, e, state.on_foot > 0);
   state.on_foot = on_foot ? state.on_foot + dt : comes_down ? state.on_foot : 0;
   const double learnt = on_foot ? -p.unload * state.on_foot * dt : p.lift_bandwidth * dt * (1 + state.expected - felt);
   state.trim = std::clamp(state.trim + learnt, p.limits.min_trim, p.limits.max_trim);
@@ -83,6 +86,8 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   state.expected += (thrust - state.trim - state.expected) * dt / (p.lift_lag + dt);
   // it feels more than the rotors give, or is still: the ground carries
   const bool carried = thrust < p.light && felt - (state.trim + state.expected) > p.ground.carried_lift;
+  // nothing measures how low it is, but the ground is felt: leaning on, the wind would turn it over
+  out.lift.stands = d.state == FlightState::landing && !e.altitude_known && carried;
   if (settling && (carried || (e.altitude < p.ground.altitude && std::abs(e.climb) < p.ground.still))) {
     state.lifted = false;
     state.trim = std::max(std::min(thrust, state.trim), p.idle);

@@ -92,6 +92,7 @@ struct OnGround {
   double carried_lift = 0.25;
   double level = 0.05;
   double near = 0.01;
+  double near_by_pressure = 0.03;
   double rising = 0.1;
   double max_thrust = 1.5;
   double run_down = 1.0;
@@ -103,6 +104,7 @@ struct OnGround {
                     field<&G::carried_lift>("", "of g, felt beyond the thrust of the rotors: the ground's"),
                     field<&G::level>("rad", "lean beyond which it may stand on one foot"),
                     field<&G::near>("m", "altitude that it has then at most, more than that of its lean"),
+                    field<&G::near_by_pressure>("m", "the same, where only the pressure shows its altitude"),
                     field<&G::rising>("m/s", "climb from which on it flies"),
                     field<&G::max_thrust>("", "with which it tries to leave the ground, at most").in(1, 10),
                     field<&G::run_down>("s", "from the thrust of hover to none where it stands").in(0.01, 100));
@@ -140,7 +142,9 @@ struct AltitudeLimits {
 ///   expected_dot = (thrust - trim - expected) / lift_lag
 /// phi and theta are roll and pitch, lift the specific force that the accelerometer feels upwards along the body's axis
 /// (m/s^2), and trim what hover takes: an observer of the disturbance of thrust. On one foot, while it comes down, trim
-/// falls at unload times the time on that foot; in a quick landing nobody feels lift, and the gust that was felt last
+/// falls at unload times the time on that foot. A landing that knows its altitude by the pressure alone, or not at all,
+/// stands, and levels, as soon as the ground carries: thrust < light, lift / g - trim - expected > carried_lift. In a
+/// quick landing nobody feels lift, and the gust that was felt last
 /// passes: trim_dot = (mean - trim) / fade, of its mean over mean_time up to then. These equations are this project's;
 /// those of the JAviator's own controller (github.com/cksystemsgroup/JAviator) are in original_control.h.
 struct AltitudeControl {

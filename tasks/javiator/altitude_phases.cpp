@@ -66,7 +66,7 @@ void descend(const AltitudeStep& step, const QuickLanding* quick) {
   state.landing += dt;
   const double overdue = std::clamp(p.overdue * (state.landing - p.landing_time), 0.0, p.touch_speed);
   // an altitude that nothing confirms may be wrong
-  const bool is_high = e.altitude > p.high && e.altitude_known && e.pressure_known;
+  const bool is_high = e.altitude > p.high && e.altitude_confirmed;
   if (quick != nullptr) {
     const QuickLanding& q = *quick;
     const double way = std::max(e.altitude - q.low, 0.0);

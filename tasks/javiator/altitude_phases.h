@@ -37,7 +37,7 @@ bool settles(const AltitudeStep& step);
 
 /// The altitude and the climb that a landing follows, in m and s:
 ///   z.demand = w (-speed - z.speed), bounded,   z.speed_dot = z.demand,   z.place_dot = z.speed
-///   w = descent_gain: speed = descent above `high`, if altitude and pressure are known, and touch_speed + late below,
+///   w = descent_gain: speed = descent above `high`, if the pressure confirms that, else touch_speed + late,
 ///                     late = overdue (landing - landing_time) from 0 to touch_speed
 ///   quick:            w = its gain, speed = part sqrt(touch_speed^2 + 2 brake (altitude - low)), up to part descent,
 ///                     at least touch_speed; part = 2 - hypot(v_x, v_y) / drift from 0 to 1

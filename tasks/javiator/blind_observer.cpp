@@ -222,8 +222,8 @@ void BlindObserver::run(const Param& p, const Tick& tick, const In& in, State& s
       begin(state.x, p);
       begin(state.y, p);
     }
-    correct(state.x, e.fix_x, p);
-    correct(state.y, e.fix_y, p);
+    correct(state.x, e.fixes[0], p);
+    correct(state.y, e.fixes[1], p);
   }
   look_down(p, in, dt, state);
   state.is_blind = !e.rates_known;

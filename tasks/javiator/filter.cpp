@@ -180,10 +180,14 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
     // blind, nothing else shows its altitude: a hover that is still is no sonar that is stuck
     const bool repeats = !is_blind && p.sonar_repeats > 0 && state.sonar.repeats >= p.sonar_repeats;
     if (believe(state.sonar, credible, p.patience) && !repeats) {
+      learn_noise(state.z, z - state.zero_z, p.noise);
+      // the sonar is all that shows a climb that is not felt
       if (tilt_known)
         track(state.z, z - state.zero_z, p.unfelt.climb);
-      else
+      else if (state.imu.lost)
         correct(state.z, z - state.zero_z, is_blind ? p.unfelt.bandwidth : p.bandwidth);
+      else
+        correct(state.z, z - state.zero_z, p.bandwidth * quiet_part(state.z, p.noise));
       correct(state.z_slow, z - state.zero_z, p.drift.climb_bandwidth);
     }
     compare_climb(state, p, dt);
@@ -208,8 +212,7 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
     state.x.bias = state.y.bias = 0;
   }
   AxisObserver* const axes[] = {&state.x, &state.y};
-  PlaceFix* const fixes[] = {&e.fix_x, &e.fix_y};
-  e.fix_x.is_new = e.fix_y.is_new = false;
+  for (PlaceFix& fix : e.fixes) fix.is_new = false;
   double* const zeros[] = {&state.zero_x, &state.zero_y};
   // a laser measures along the axis whose wall it meets
   const auto look = [&](SensorTrust& laser, bool heard, const Vector3d& lever, int along, double range) {
@@ -227,11 +230,11 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
     const bool credible = heard && fix.seen && is_near(axis, fix.place - zero, jump);
     const bool repeats = p.laser_repeats > 0 && laser.repeats > 0;
     if (!believe(laser, credible, p.patience) || axis.since == 0 || repeats) return;
-    *fixes[fix.axis] = {.place = fix.place - zero,
-                        .slope = lever.z() + range * R_now(2, along),
-                        .skew = range * R_now(1 - fix.axis, along),
-                        .range = range * R_now(fix.axis, along),
-                        .is_new = !(is_blind && blind.turns)};
+    e.fixes[fix.axis] = {.place = fix.place - zero,
+                         .slope = lever.z() + range * R_now(2, along),
+                         .skew = range * R_now(1 - fix.axis, along),
+                         .range = range * R_now(fix.axis, along),
+                         .is_new = !(is_blind && blind.turns)};
     if (is_blind) {
       if (!blind.turns) axis.since = 0;
       return;
@@ -271,14 +274,14 @@ void step(const JaviatorFilter::Param& p, double dt, const JaviatorFilter::In& i
        .battery =
            e.battery == 0 ? s.battery : e.battery + std::min(dt / p.age.battery_time, 1.0) * (s.battery - e.battery),
        .rates_age = state.last_turn.since,
-       .fix_x = e.fix_x,
-       .fix_y = e.fix_y,
+       .fixes = e.fixes,
        .rates_known = !state.imu.lost && answers,
        .attitude_known = !state.imu.lost && !state.angles.lost,
        .lean_known = is_blind,
        .tilt_known = tilt_known,
        .touches = tilt_known && may_stand(p.unfelt.stand, state.roll, state.pitch, state.z.place),
        .altitude_known = !state.sonar.lost,
+       .altitude_confirmed = !state.sonar.lost && !state.pressure.lost && std::abs(state.disagreement) < p.drift.doubt,
        .position_known = !state.laser_x.lost && !state.laser_y.lost && unseen < p.unseen.patience,
        .pressure_known = !state.pressure.lost,
        .answers_known = answers && !state.anew.begins};

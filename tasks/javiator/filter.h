@@ -16,15 +16,16 @@ namespace jarol::tasks {
 /// What drifts is found by what is felt: beside the sonar's climb and the IMU's angles others are kept that hardly
 /// trust them, but the accelerometer and the rates.
 struct DriftLimits {
-  double climb_bandwidth = 0.3;
-  double climb = 0.032;
-  double climb_time = 1;
+  double climb_bandwidth = 0.8;
+  double climb = 0.025;
+  double climb_time = 0.5;
   double climb_memory = 10;
   double angle_bandwidth = 0.25;
   double angle = 0.015;
   double pull = 0.02;
   double pull_time = 1.5;
   double new_part = 0.05;
+  double doubt = 0.25;
   RestLearning rest{};
 
   static constexpr auto fields() {
@@ -39,7 +40,20 @@ struct DriftLimits {
         field<&D::pull>("rad", "of an angle that sideways acceleration without a cause shows"),
         field<&D::pull_time>("s", "over which that is averaged"),
         field<&D::new_part>("", "of a new difference between sensors in its average").in(0, 1),
+        field<&D::doubt>("m", "of that of sonar and pressure from which on the altitude is not confirmed"),
         field<&D::rest>("", "what is learnt of sensors where it stands"));
+  }
+};
+
+/// How the altitude follows the pressure, by what the two differ by at a reading.
+struct ByPressure {
+  double place = 0.05;
+  double speed = 0.02;
+
+  static constexpr auto fields() {
+    using B = ByPressure;
+    return describe(field<&B::place>("", "part of it that altitude takes"),
+                    field<&B::speed>("1/s", "times it is what the climb takes"));
   }
 };
 
@@ -132,7 +146,8 @@ struct ReadingAge {
 ///   angles:     their rates are those of omega_b (rotations.h, euler_rates), and by each credible reading of the IMU
 ///               angle += angle_gain (measured - angle)
 ///   motion:     a_n = R_nb f_b + (0, 0, g), which an AxisObserver integrates for north, east and upwards (-a_z)
-///   altitude:   z of R_nb (sonar_x, sonar_y, sonar_z + range), from where it stood, corrects the third of them; there
+///   altitude:   z of R_nb (sonar_x, sonar_y, sonar_z + range), from where it stood, corrects the third of them, at
+///               bandwidth min(1, noise.usual / RMS of its residuals) while the IMU is heard; where it stands
 ///               a range counts that is within sonar_jump of the one before, and a laser's place within range_jump
 ///   place:      find_place (room.h) of each laser's range with the rotation at that time, the first two
 ///   drift:      a second observer upwards, and a SlowAngle of roll and pitch, hardly corrected (filter_checks.h)
@@ -140,7 +155,7 @@ struct ReadingAge {
 ///               one reported only after unfelt.patience without; altitude is tracked (observers.h, UnfeltClimb), and a
 ///               foot may stand (foot_stand.h)
 ///   pressure:   h = (mean on the ground - pressure) / pascal_per_metre; without a sonar, e being h - z at a reading,
-///               z += pressure_place e,   climb += pressure_speed e
+///               z += by_pressure.place e,   climb += by_pressure.speed e
 /// Between readings of the IMU rates and forces fade by e^(-since / fade), rates to 0 and f_b to R_nb^T (0, 0, -g). The
 /// estimate is turned on by the age of what is measured: angle + age rate. While the IMU is lost the angles, and place
 /// and speed, are BlindObserver's. The JAviator's own filter is in original_filter.h.
@@ -152,6 +167,7 @@ struct JaviatorFilter {
     double laser_y_x = 0.050, laser_y_y = -0.077, laser_y_z = 0.080;
     Room room{};
     double bandwidth = 6;
+    ReadingNoise noise{};
     ReadingAge age{};
     double angle_gain = 0.5;
     double patience = 0.3;
@@ -167,8 +183,7 @@ struct JaviatorFilter {
     double pascal_per_metre = 12;
     double disagreement = 0.6;
     DriftLimits drift{};
-    double pressure_place = 0.05;
-    double pressure_speed = 0.02;
+    ByPressure by_pressure{};
     std::uint32_t imu_repeats = 3;
     std::uint32_t laser_repeats = 5;
     std::uint32_t sonar_repeats = 6;
@@ -182,7 +197,9 @@ struct JaviatorFilter {
           field<&P::laser_x_z>("m", "down"), field<&P::laser_y_x>("m", "of the laser that looks right, forward"),
           field<&P::laser_y_y>("m", "right"), field<&P::laser_y_z>("m", "down"),
           field<&P::room>("", "whose walls the lasers see"),
-          field<&P::bandwidth>("rad/s", "of the observers of place and speed"), field<&P::age>("", "of readings"),
+          field<&P::bandwidth>("rad/s", "of the observers of place and speed"),
+          field<&P::noise>("", "of the sonar, where the IMU is heard: the more, the more slowly it is followed"),
+          field<&P::age>("", "of readings"),
           field<&P::angle_gain>("", "part of a measured angle in the new one, the rest is the rate's"),
           field<&P::patience>("s", "without a credible measurement before a sensor counts as lost"),
           field<&P::imu_patience>("s", "the same, for the IMU"),
@@ -199,9 +216,7 @@ struct JaviatorFilter {
               .in(0, 100),
           field<&P::pascal_per_metre>("Pa/m", "by which the pressure falls, upwards").in(1, 100),
           field<&P::disagreement>("m", "between sonar and pressure from which on one of them is not credible"),
-          field<&P::drift>("", "of sensors, how it is found"),
-          field<&P::pressure_place>("", "part of what the pressure differs by that is taken without a sonar"),
-          field<&P::pressure_speed>("1/s", "and climb by it"),
+          field<&P::drift>("", "of sensors, how it is found"), field<&P::by_pressure>("", "altitude without a sonar"),
           field<&P::imu_repeats>("", "of all its angles and rates at which the IMU counts as stuck; 0: never"),
           field<&P::laser_repeats>("", "the same, for a laser; none that repeats is used"),
           field<&P::sonar_repeats>("", "of its range from which on a sonar is not used; 0: always used"),

@@ -27,8 +27,8 @@ void weigh_pressure(JaviatorFilter::State& state, const JaviatorFilter::Param& p
     }
   }
   if (!state.sonar.lost) return;
-  state.z.place += p.pressure_place * residual;
-  state.z.speed += p.pressure_speed * residual;
+  state.z.place += p.by_pressure.place * residual;
+  state.z.speed += p.by_pressure.speed * residual;
 }
 
 void compare_pull(JaviatorFilter::State& state, const JaviatorFilter::Param& p, double dt) {

@@ -163,8 +163,8 @@ void FlightLogic::run(const Param& p, const Tick& tick, const In& in, State& sta
   const double passed = before < 0 ? dt : dt * static_cast<double>(tick.activation - before);
   const bool is_heard_again = e.answers_known && state.unanswered > p.long_silence;
   state.unanswered = e.answers_known && passed < p.answers_patience ? 0 : state.unanswered + passed;
-  see_wall(e.fix_x, state.walls_x);
-  see_wall(e.fix_y, state.walls_y);
+  see_wall(e.fixes[0], state.walls_x);
+  see_wall(e.fixes[1], state.walls_y);
   const bool wants_position = command.mode_switches % 2 == 1;
 
   if (command.shut_downs != state.shut_downs) {

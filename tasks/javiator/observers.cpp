@@ -25,6 +25,15 @@ void correct(AxisObserver& axis, double measured, double bandwidth) {
   axis.since = 0;
 }
 
+void learn_noise(AxisObserver& axis, double measured, const ReadingNoise& by) {
+  const double residual = measured - axis.place;
+  axis.residual_squared += by.part * (residual * residual - axis.residual_squared);
+}
+
+double quiet_part(const AxisObserver& axis, const ReadingNoise& by) {
+  return by.usual / std::max(by.usual, std::sqrt(axis.residual_squared));
+}
+
 void track(AxisObserver& axis, double measured, const UnfeltClimb& by) {
   const double residual = measured - axis.place;
   const double T = axis.since;

@@ -16,12 +16,25 @@ namespace jarol::tasks {
 struct AxisObserver {
   double place = 0, speed = 0, bias = 0;
   double since = 0, seen = 1e9;
+  double residual_squared = 0;
 
   static constexpr auto fields() {
     using A = AxisObserver;
     return describe(field<&A::place>("m"), field<&A::speed>("m/s"), field<&A::bias>("m/s^2", "of the accelerometer"),
                     field<&A::since>("s", "the last measurement"),
-                    field<&A::seen>("m", "where it stands, measured last; 1e9: nothing yet"));
+                    field<&A::seen>("m", "where it stands, measured last; 1e9: nothing yet"),
+                    field<&A::residual_squared>("m^2", "of what is measured, averaged"));
+  }
+};
+
+/// How noisy what is measured is: the root mean square of what it differs by from what was foreseen.
+struct ReadingNoise {
+  double usual = 0.012;
+  double part = 0.05;
+
+  static constexpr auto fields() {
+    return describe(field<&ReadingNoise::usual>("m", "up to which it is followed with the full bandwidth").in(1e-4, 10),
+                    field<&ReadingNoise::part>("", "of a new reading in that mean").in(0, 1));
   }
 };
 
@@ -103,6 +116,12 @@ void predict(AxisObserver& axis, double acceleration, double dt);
 
 /// What is measured (m) corrects place, speed and bias, with three poles at the bandwidth (rad/s).
 void correct(AxisObserver& axis, double measured, double bandwidth);
+
+/// What is measured (m) is averaged in the square of what it differs by.
+void learn_noise(AxisObserver& axis, double measured, const ReadingNoise& by);
+
+/// The part of its bandwidth with which readings that noisy are followed: usual / rms, at most 1.
+double quiet_part(const AxisObserver& axis, const ReadingNoise& by);
 
 /// What is measured (m) corrects place, speed and bias by the gains of UnfeltClimb.
 void track(AxisObserver& axis, double measured, const UnfeltClimb& by);

@@ -156,10 +156,11 @@ struct FlightEstimate {
   double a_x = 0, a_y = 0, a_up = 0;
   double lift = 0, drag_x = 0, drag_y = 0;
   double battery = 0, rates_age = 0;
-  PlaceFix fix_x{}, fix_y{};
+  std::array<PlaceFix, 2> fixes{};
   bool rates_known = false, attitude_known = false, lean_known = false, tilt_known = false;
   bool touches = false;
-  bool altitude_known = false, position_known = false, pressure_known = false, answers_known = false;
+  bool altitude_known = false, altitude_confirmed = false, position_known = false;
+  bool pressure_known = false, answers_known = false;
 
   static constexpr auto fields() {
     using E = FlightEstimate;
@@ -174,13 +175,14 @@ struct FlightEstimate {
         field<&E::drag_x>("m/s^2", "to the north, of all else: drag and wind"),
         field<&E::drag_y>("m/s^2", "to the east"), field<&E::battery>("V", "voltage"),
         field<&E::rates_age>("s", "since the IMU has reported something new"),
-        field<&E::fix_x>("", "north of the start"), field<&E::fix_y>("", "east of the start"),
+        field<&E::fixes>("", "north and east of the start"),
         field<&E::rates_known>("", "the IMU reports something new"),
         field<&E::attitude_known>("", "and its angles agree with its rates"),
         field<&E::lean_known>("", "sonars or lasers show roll and pitch in its place"),
         field<&E::tilt_known>("", "sonars do, on the ground as well"),
         field<&E::touches>("", "so low and leaning so, by the sonars, that a foot may stand"),
         field<&E::altitude_known>("", "the sonar reports something credible"),
+        field<&E::altitude_confirmed>("", "and the pressure agrees"),
         field<&E::position_known>("", "the lasers show it, or did of late"),
         field<&E::pressure_known>("", "the BMU does"), field<&E::answers_known>("", "the Robostix answers in time"));
   }

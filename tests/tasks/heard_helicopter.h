@@ -22,6 +22,7 @@ struct HeardHelicopter {
                                  .new_x = true,
                                  .new_y = true};
   tasks::FlightDirective directive{.state = tasks::FlightState::ground};
+  tasks::BlindMotion blind{};
 
   std::int64_t activation = 0;
 
@@ -31,7 +32,7 @@ struct HeardHelicopter {
     for (int i = 0; i < periods; ++i) {
       ++sensors.answers;
       tasks::JaviatorFilter::run(param, {.activation = activation++, .period = std::chrono::milliseconds(15)},
-                                 {sensors, directive}, state, out);
+                                 {sensors, directive, blind}, state, out);
     }
     return out.estimate;
   }

@@ -44,7 +44,7 @@ TEST_SUITE("tasks/javiator_control/lift") {
     a.in.directive = {.state = FlightState::landing};
     a.in.estimate.altitude = 0.4;
     a.in.estimate.altitude_known = true;
-    a.in.estimate.pressure_known = true;
+    a.in.estimate.altitude_confirmed = true;
     const auto demand_after = [&](double seconds) {
       a.state.landing = seconds - dt;
       a.state.z = {.place = 0.4, .speed = -0.3};
@@ -59,13 +59,14 @@ TEST_SUITE("tasks/javiator_control/lift") {
     CHECK(a.state.landing == 0);
   }
 
-  TEST_CASE("it descends fast only where pressure and sonar report that it is high") {
-    for (const bool pressure : {true, false}) {
+  TEST_CASE("it descends fast only where the pressure confirms that it is high") {
+    for (const bool confirmed : {true, false}) {
       Altitude a;
       a.in.directive = {.state = FlightState::landing};
-      a.in.estimate.pressure_known = pressure;
+      a.in.estimate.pressure_known = true;
+      a.in.estimate.altitude_confirmed = confirmed;
       a.run();
-      CHECK(a.state.z.demand == doctest::Approx(-3 * (pressure ? 0.5 : 0.2)));
+      CHECK(a.state.z.demand == doctest::Approx(-3 * (confirmed ? 0.5 : 0.2)));
     }
   }
 
@@ -315,7 +316,7 @@ TEST_SUITE("tasks/javiator_control/lift") {
       a.in.directive.state = FlightState::landing;
       a.in.estimate.altitude = altitude;
       a.in.estimate.altitude_known = known;
-      a.in.estimate.pressure_known = true;
+      a.in.estimate.altitude_confirmed = known;
       a.state.z = {.place = altitude};
       a.run();
       CHECK(a.state.z.speed == doctest::Approx(a.state.z.demand * dt));

@@ -15,38 +15,38 @@ using jarol::tests::hovering;
 }  // namespace
 
 TEST_SUITE("tasks/javiator_filter/drift") {
-  TEST_CASE("where sonar and pressure disagree, the sonar is lost if its climb was 32 mm/s off, else the pressure") {
-    for (const double off : {0.0325, 0.0331}) {
+  TEST_CASE("where sonar and pressure disagree, the sonar is lost if its climb was 25 mm/s off, else the pressure") {
+    for (const double off : {0.0255, 0.0259}) {
       HeardHelicopter heard = hovering();
       heard.state.z_slow = heard.state.z;
       heard.state.climb_off = 0;
       heard.state.climb_was_off = off;  // of which 0.15 % are forgotten each period
       heard.sensors.pressure -= 12;
       heard.run(18);
-      CHECK(heard.out.estimate.altitude_known == (off < 0.033));
-      CHECK(heard.out.estimate.pressure_known == (off > 0.033));
+      CHECK(heard.out.estimate.altitude_known == (off < 0.0257));
+      CHECK(heard.out.estimate.pressure_known == (off > 0.0257));
     }
   }
 
-  TEST_CASE("a climb that is off is averaged over a second, whichever way it is off, and forgotten in ten") {
+  TEST_CASE("a climb that is off is averaged over half a second, whichever way it is off, and forgotten in ten") {
     for (const double side : {-1.0, 1.0}) {
       HeardHelicopter heard = hovering();
       heard.state.z_slow = heard.state.z;
       heard.state.climb_off = heard.state.climb_was_off = 0;
       heard.state.z_slow.speed -= 0.1 * side;
       heard.run(1);
-      CHECK(heard.state.climb_off == doctest::Approx(0.1 * side * HeardHelicopter::dt).scale(0).epsilon(0.01));
-      CHECK(heard.state.climb_was_off == doctest::Approx(0.1 * HeardHelicopter::dt).scale(0).epsilon(0.01));
+      CHECK(heard.state.climb_off == doctest::Approx(0.2 * side * HeardHelicopter::dt).scale(0).epsilon(0.02));
+      CHECK(heard.state.climb_was_off == doctest::Approx(0.2 * HeardHelicopter::dt).scale(0).epsilon(0.02));
       heard.state.climb_was_off = 1;
       heard.run(1);
       CHECK(heard.state.climb_was_off == doctest::Approx(1 - HeardHelicopter::dt / 10).scale(0).epsilon(1e-6));
     }
   }
 
-  TEST_CASE("the observer that hardly trusts the sonar has its poles at 0.3 rad/s") {
+  TEST_CASE("the observer that hardly trusts the sonar has its poles at 0.8 rad/s") {
     HeardHelicopter heard = hovering();
     heard.state.z_slow = {.place = heard.state.z.place - 0.01};
-    const double speed = heard.state.z_slow.speed, pole = std::exp(-0.3 * HeardHelicopter::dt);
+    const double speed = heard.state.z_slow.speed, pole = std::exp(-0.8 * HeardHelicopter::dt);
     heard.run(1);
     CHECK(heard.state.z_slow.speed - speed ==
           doctest::Approx(1.5 * (1 - pole) * (1 - pole) * (1 + pole) * 0.01 / HeardHelicopter::dt)

@@ -40,16 +40,16 @@ TEST_SUITE("tasks/flight_logic") {
     logic.in.command.y = -30;
     logic.run(1);
     CHECK(logic.out.directive.x == 30);
-    logic.in.estimate.fix_x = {.place = 2, .range = 6, .is_new = true};
-    logic.in.estimate.fix_y = {.place = -1, .range = -4, .is_new = true};
+    logic.in.estimate.fixes[0] = {.place = 2, .range = 6, .is_new = true};
+    logic.in.estimate.fixes[1] = {.place = -1, .range = -4, .is_new = true};
     logic.run(1);
     CHECK(logic.out.directive.x == 6.5);
     CHECK(logic.out.directive.y == -3.5);
     // it may always go back to where it took off
-    logic.in.estimate.fix_y = {.place = 0, .range = -0.7, .is_new = true};
+    logic.in.estimate.fixes[1] = {.place = 0, .range = -0.7, .is_new = true};
     logic.run(1);
     CHECK(logic.out.directive.y == 0);
-    logic.in.estimate.fix_x.is_new = logic.in.estimate.fix_y.is_new = false;
+    logic.in.estimate.fixes[0].is_new = logic.in.estimate.fixes[1].is_new = false;
     logic.run(1);
     CHECK(logic.out.directive.x == 6.5);
     logic.press();

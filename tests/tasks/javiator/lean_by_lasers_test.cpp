@@ -94,13 +94,13 @@ TEST_SUITE("tasks/lean_by_lasers") {
 
   TEST_CASE("a fix grows with the lean to its wall by what the ray points down, and with the yaw by what it is askew") {
     const FlightEstimate e = estimate_of({.roll = 0.05, .pitch = 0.1, .lift = g_earth, .known = true});
-    CHECK(e.fix_x.is_new);
-    CHECK(e.fix_y.is_new);
-    CHECK(e.fix_x.slope == doctest::Approx(0.08 - 8.07 * std::sin(0.1)));
-    CHECK(e.fix_y.slope == doctest::Approx(0.08 + 8.077 * std::sin(0.05) * std::cos(0.1)));
-    CHECK(e.fix_x.range == doctest::Approx(8.07 * std::cos(0.1)));
-    CHECK(e.fix_y.range == doctest::Approx(8.077 * std::cos(0.05)));
-    CHECK(std::abs(e.fix_x.skew) < 1e-9);
+    CHECK(e.fixes[0].is_new);
+    CHECK(e.fixes[1].is_new);
+    CHECK(e.fixes[0].slope == doctest::Approx(0.08 - 8.07 * std::sin(0.1)));
+    CHECK(e.fixes[1].slope == doctest::Approx(0.08 + 8.077 * std::sin(0.05) * std::cos(0.1)));
+    CHECK(e.fixes[0].range == doctest::Approx(8.07 * std::cos(0.1)));
+    CHECK(e.fixes[1].range == doctest::Approx(8.077 * std::cos(0.05)));
+    CHECK(std::abs(e.fixes[0].skew) < 1e-9);
   }
 
   TEST_CASE("the place is held softly, by 0.6/s^2 and 1.5/s") {

@@ -141,7 +141,7 @@ TEST_SUITE("tasks/lean_by_sonars") {
     b.lose_imu();
     b.run(0.01, 0, 1);
     CHECK(b.out.motion.turns);
-    b.in.estimate.fix_x = b.in.estimate.fix_y = {.range = 8, .is_new = true};
+    b.in.estimate.fixes[0] = b.in.estimate.fixes[1] = {.range = 8, .is_new = true};
     const auto wait = [&](int periods) {
       for (int i = 0; i < periods; ++i) BlindObserver::run(b.param, tick, b.in, b.state, b.out);
       return b.out.motion.known;
@@ -174,7 +174,7 @@ TEST_SUITE("tasks/lean_by_sonars") {
         ++heard.sensors.answers;
         JaviatorFilter::run(heard.param, tick, {heard.sensors, heard.directive, blind}, heard.state, heard.out);
       }
-      CHECK(heard.out.estimate.fix_x.is_new != turns);
+      CHECK(heard.out.estimate.fixes[0].is_new != turns);
       CHECK(heard.out.estimate.position_known != turns);  // 1.8 s
     }
   }

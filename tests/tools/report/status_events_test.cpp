@@ -118,7 +118,7 @@ TEST_SUITE("tools/status_events") {
     CHECK(reported_in(command::run_jarol(run).output) ==
           std::vector<std::string>{
               "to_terminal at 12.28 s: state landing, cause sonar_lost: the sonar reports nothing credible",
-              "to_terminal at 18.19 s: state ground", "to_terminal at 28.03 s: cause none"});
+              "to_terminal at 18.25 s: state ground", "to_terminal at 28.03 s: cause none"});
     CHECK(nlohmann::json::parse(command::run_jarol(run + " --json", "2>/dev/null").output)["events"][0] ==
           nlohmann::json{{"communicator", "to_terminal"},
                          {"instant_ns", 12'280'000'000},
