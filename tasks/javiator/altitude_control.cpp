@@ -86,8 +86,8 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   state.expected += (thrust - state.trim - state.expected) * dt / (p.lift_lag + dt);
   // it feels more than the rotors give, or is still: the ground carries
   const bool carried = thrust < p.light && felt - (state.trim + state.expected) > p.ground.carried_lift;
-  // nothing measures how low it is, but the ground is felt: leaning on, the wind would turn it over
-  out.lift.stands = d.state == FlightState::landing && !e.altitude_known && carried;
+  // its altitude may be wrong, but the ground is felt: leaning on, the wind would turn it over
+  out.lift.stands = d.state == FlightState::landing && !e.altitude_confirmed && carried;
   if (settling && (carried || (e.altitude < p.ground.altitude && std::abs(e.climb) < p.ground.still))) {
     state.lifted = false;
     state.trim = std::max(std::min(thrust, state.trim), p.idle);

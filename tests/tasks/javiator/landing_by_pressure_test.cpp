@@ -74,13 +74,16 @@ TEST_SUITE("tasks/landing_by_pressure") {
     CHECK_FALSE(light.out.lift.stands);
   }
 
-  TEST_CASE("with much thrust, a sonar, or commanded to fly, it does not count as standing") {
+  TEST_CASE("with much thrust, a confirmed altitude, or commanded to fly, it does not count as standing") {
     Altitude strong = carried_by(0.5), measured = strong, flying = strong;
     strong.state.trim = 1;
     strong.in.estimate.lift = 1.5 * g_earth;
     strong.run();
     CHECK_FALSE(strong.out.lift.stands);
     measured.in.estimate.altitude_known = true;
+    measured.run();
+    CHECK(measured.out.lift.stands);  // by a sonar that nothing confirms
+    measured.in.estimate.altitude_confirmed = true;
     measured.run();
     CHECK_FALSE(measured.out.lift.stands);
     flying.in.directive = {.state = FlightState::flying, .altitude = 0.1};
