@@ -87,7 +87,7 @@ void AltitudeControl::run(const Param& p, const Tick& tick, const In& in, State&
   // it feels more than the rotors give, or is still: the ground carries
   const bool carried = thrust < p.light && felt - (state.trim + state.expected) > p.ground.carried_lift;
   // its altitude may be wrong, but the ground is felt: leaning on, the wind would turn it over
-  out.lift.stands = d.state == FlightState::landing && !e.altitude_confirmed && carried;
+  out.lift.stands = d.state == FlightState::landing && !quick && !e.altitude_confirmed && carried;
   if (settling && (carried || (e.altitude < p.ground.altitude && std::abs(e.climb) < p.ground.still))) {
     state.lifted = false;
     state.trim = std::max(std::min(thrust, state.trim), p.idle);

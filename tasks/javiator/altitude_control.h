@@ -142,11 +142,11 @@ struct AltitudeLimits {
 ///   expected_dot = (thrust - trim - expected) / lift_lag
 /// phi and theta are roll and pitch, lift the specific force that the accelerometer feels upwards along the body's axis
 /// (m/s^2), and trim what hover takes: an observer of the disturbance of thrust. On one foot, while it comes down, trim
-/// falls at unload times the time on that foot. A landing whose altitude is not confirmed by
-/// sonar and pressure alike stands, and levels, as soon as the ground carries: thrust < light, lift / g - trim -
-/// expected > carried_lift. In a quick landing nobody feels lift, and the gust that was felt last passes: trim_dot =
-/// (mean - trim) / fade, of its mean over mean_time up to then. These equations are this project's; those of the
-/// JAviator's own controller (github.com/cksystemsgroup/JAviator) are in original_control.h.
+/// falls at unload times the time on that foot. A landing whose altitude sonar and pressure do not both
+/// show stands, and levels, as soon as the ground carries: thrust < light, lift / g - trim - expected > carried_lift.
+/// In a quick landing nobody feels lift, and the gust that was felt last passes: trim_dot = (mean - trim) / fade, of
+/// its mean over mean_time up to then. These equations are this project's; those of the JAviator's own controller
+/// (github.com/cksystemsgroup/JAviator) are in original_control.h.
 struct AltitudeControl {
   static constexpr std::string_view summary = "takes off softly, holds a commanded altitude, and lands softly";
   struct Param {

@@ -83,6 +83,11 @@ TEST_SUITE("tasks/landing_by_pressure") {
     measured.in.estimate.altitude_known = true;
     measured.run();
     CHECK(measured.out.lift.stands);  // by a sonar that nothing confirms
+    Altitude unfelt = carried_by(0.5);
+    unfelt.in.estimate.altitude_known = unfelt.in.estimate.lean_known = true;
+    unfelt.state.foot_cut = 1;
+    unfelt.run();
+    CHECK_FALSE(unfelt.out.lift.stands);  // without an IMU lift is no measurement
     measured.in.estimate.altitude_confirmed = true;
     measured.run();
     CHECK_FALSE(measured.out.lift.stands);
