@@ -177,10 +177,12 @@ void MotorWatch::run(const Param& p, const Tick& tick, const In& in, State& stat
   if (stands && in.directive.cause == LandingCause::none) state.motors = {};
   state.sent[in.motors.number % kept] = {in.motors, false};
   const Sampled sampled = take_answer(s, in.motors.number, state);
-  const bool lands = doing == FlightState::landing && e.altitude_known;
-  const double lowest = lands && state.motors.weak == Motor::none ? p.low : p.contact;
-  const bool aloft = (doing == FlightState::flying || doing == FlightState::landing) && e.altitude > lowest;
-  const bool watches = aloft && e.rates_known;
+  const bool lands = doing == FlightState::landing, sound = state.motors.weak == Motor::none;
+  const double lowest = lands && e.altitude_known && sound ? p.low : p.contact;
+  const bool aloft = (doing == FlightState::flying || lands) && e.altitude > lowest;
+  // where it may stand already the ground would be taken for a motor
+  const bool may_stand = lands && sound && !e.altitude_confirmed;
+  const bool watches = aloft && e.rates_known && !may_stand;
   if (!aloft) state.wind_roll = state.wind_pitch = 0;
   if (!watches) {
     state.follows = false;

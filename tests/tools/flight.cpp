@@ -29,6 +29,7 @@ class Watched : public vehicles::Helicopter {
  private:
   void look() {
     const vehicles::HelicopterMotion m = motion();
+    const auto& truth = *static_cast<const vehicles::HelicopterTruth*>(true_values());
     if (steps_ == 0) ground_ = m.p_n[2];
     watching->push_back({.time = 0.005 * steps_,
                          .x = m.p_n[0],
@@ -38,7 +39,8 @@ class Watched : public vehicles::Helicopter {
                          .pitch = -std::asin(m.R_nb[2][0]),
                          .yaw = std::atan2(m.R_nb[1][0], m.R_nb[0][0]),
                          .climb = -vehicles::to_ned(m.R_nb, m.v_b)[2],
-                         .impact = static_cast<const vehicles::HelicopterTruth*>(true_values())->impact});
+                         .touch_down = truth.touch_down,
+                         .impact = truth.impact});
   }
 
   int steps_ = 0;
@@ -158,13 +160,6 @@ Glimpse Flight::at(double time) const {
   for (const Glimpse& g : path)
     if (g.time >= time - 1e-9) return g;
   return path.back();
-}
-
-double Flight::touch_down() const {
-  double speed = 0;
-  for (std::size_t i = path.size() - 1; i > 0 && path[i].altitude < 0.1; --i)
-    if (path[i].altitude < 0.002 && path[i - 1].altitude >= 0.002) speed = std::max(speed, -path[i - 1].climb);
-  return speed;
 }
 
 tasks::PilotCommand hover_command(double time) {

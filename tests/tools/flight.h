@@ -18,7 +18,8 @@ struct Glimpse {
   double x = 0, y = 0, altitude = 0;
   double roll = 0, pitch = 0, yaw = 0;
   double climb = 0;
-  double impact = 0;  // m/s, the greatest speed down at which a part has met the ground so far
+  double touch_down = 0;  // m/s, the greatest speed down of its middle as a part met the ground so far
+  double impact = 0;      // m/s, the greatest speed down at which a part has met the ground so far
 };
 
 struct Flight {
@@ -35,10 +36,9 @@ struct Flight {
   /// The last instant at which |value - of| exceeds the band.
   double settled(double Glimpse::*value, double of, double band) const;
   Glimpse at(double time) const;
-  /// The greatest speed at which its centre of gravity came down as it met the ground since it was last 0.1 m above it;
-  /// 0 if it is in the air.
-  double touch_down() const;
-  /// The same as its judge sees it, of the part that came down fastest, in the whole flight.
+  /// As its judge sees them in the whole flight: how fast its middle came down as a part of it met the ground, and how
+  /// fast the part did that came down fastest.
+  double touch_down() const { return path.back().touch_down; }
   double impact() const { return path.back().impact; }
   tasks::FlightDirective last() const { return directives.back().second; }
 };

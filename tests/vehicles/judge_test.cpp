@@ -82,6 +82,35 @@ TEST_SUITE("vehicles/judge") {
     judge.look(std::chrono::milliseconds(5), head_first, {});
     CHECK(judge.mishap()->text == "crashed: its top met the ground");
     CHECK(judge.truth().impact == doctest::Approx(3));
+    CHECK(judge.truth().touch_down == doctest::Approx(3));
+  }
+
+  TEST_CASE("how fast its middle came down is kept apart from how fast a foot did as it turned") {
+    // its right foot, 0.2 m out and 0.2 m down, comes down by 2 rad/s and 0.1 m/s; its middle by 0.1 m/s
+    HelicopterMotion turning = tilted(0, -0.2001);
+    turning.v_b = {0, 0, 0.1};
+    turning.omega_b = {2, 0, 0};
+    HelicopterJudge judge({}, turning);
+    CHECK(judge.truth().touch_down == 0);
+    turning.p_n[2] = -0.1999;
+    judge.look(std::chrono::milliseconds(5), turning, {});
+    CHECK(judge.truth().impact == doctest::Approx(0.5).epsilon(1e-6).scale(0));
+    CHECK(judge.truth().touch_down == doctest::Approx(0.1).epsilon(1e-6).scale(0));
+    // on its feet, however fast it sinks, it touches down no more
+    turning.p_n[2] = -0.1998;
+    turning.v_b = {0, 0, 0.7};
+    judge.look(std::chrono::milliseconds(10), turning, {});
+    CHECK(judge.truth().touch_down == doctest::Approx(0.1).epsilon(1e-6).scale(0));
+    // what the ground has slowed down within a step counts as it was before
+    HelicopterJudge slowed({}, tilted(0, -0.2001));
+    turning.p_n[2] = -0.1999;
+    turning.v_b = {0, 0, 0.4};
+    HelicopterMotion before = turning;
+    before.p_n[2] = -0.2001;
+    slowed.look(std::chrono::milliseconds(5), before, {});
+    turning.v_b = {0, 0, 0.2};
+    slowed.look(std::chrono::milliseconds(10), turning, {});
+    CHECK(slowed.truth().touch_down == doctest::Approx(0.4).epsilon(1e-6).scale(0));
   }
 
   TEST_CASE("rotors that were ordered to lift it for 5 s, and did not, have never taken off") {

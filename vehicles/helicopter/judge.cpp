@@ -18,6 +18,9 @@ constexpr double airborne = 0.02;  // m, of the lowest foot above the ground
 
 double yaw_of(const HelicopterMotion& motion) { return euler_angles_of(motion.R_nb).yaw; }
 
+// Of its centre of gravity, downwards.
+double sink_of(const HelicopterMotion& motion) { return to_ned(motion.R_nb, motion.v_b)[2]; }
+
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 
 }  // namespace
@@ -81,6 +84,8 @@ void HelicopterJudge::meet_ground(std::chrono::nanoseconds instant, const Helico
   const FootMotion before = foot_motion(last_, r_b), after = foot_motion(motion, r_b);
   // the ground has slowed it down since it touched
   const double speed = std::max(before.v_n[2], after.v_n[2]);
+  const double sink = std::max(sink_of(last_), sink_of(motion));
+  truth_.touch_down = std::max(truth_.touch_down, sink);
   truth_.impact = std::max(truth_.impact, speed);
   if (mishap_) return;
   if (part >= foot_count)

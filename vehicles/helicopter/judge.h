@@ -40,7 +40,7 @@ class HelicopterJudge {
   HelicopterMotion start_;
   double start_yaw_;
   HelicopterMotion last_;
-  mutable HelicopterTruth truth_;  // its impact always, the rest where it is found
+  mutable HelicopterTruth truth_;  // its touch_down and impact always, the rest where it is found
   mutable bool is_found_ = false;
   std::optional<Mishap> mishap_;
   bool has_flown_ = false;

@@ -82,6 +82,7 @@ TEST_SUITE("tasks/javiator_motor_watch") {
     }
     Watched lands;
     lands.in.directive.state = FlightState::landing;
+    lands.in.estimate.altitude_confirmed = true;
     lands.body.parts[0] = 0.5;
     CHECK(lands.seconds_until_weak() < 0.1);
   }
@@ -89,7 +90,7 @@ TEST_SUITE("tasks/javiator_motor_watch") {
   TEST_CASE("one that fails as it lands is found down to 6 cm by the sonar, and followed above 10 cm") {
     Watched w;
     w.in.directive.state = FlightState::landing;
-    w.in.estimate.altitude_known = true;
+    w.in.estimate.altitude_known = w.in.estimate.altitude_confirmed = true;
     w.in.estimate.altitude = 0.061;
     w.body.parts[0] = 0.5;
     CHECK(w.seconds_until_weak() < 0.1);
@@ -101,13 +102,31 @@ TEST_SUITE("tasks/javiator_motor_watch") {
     CHECK(w.out.motors.effectiveness[0] == doctest::Approx(0.5).epsilon(0.02).scale(0));
     Watched lower;
     lower.in.directive.state = FlightState::landing;
-    lower.in.estimate.altitude_known = true;
+    lower.in.estimate.altitude_known = lower.in.estimate.altitude_confirmed = true;
     lower.in.estimate.altitude = 0.059;
     lower.body.parts[0] = 0.5;
     CHECK(lower.seconds_until_weak() > 0.99);
     lower.in.estimate.altitude = 0.09;
     lower.in.directive.state = FlightState::flying;  // it takes off: what is found has to be followed
     CHECK(lower.seconds_until_weak() > 0.99);
+  }
+
+  TEST_CASE("in a landing whose altitude nothing confirms the ground is no motor's fault, but a weak one is followed") {
+    Watched w;
+    w.in.directive.state = FlightState::landing;
+    w.in.estimate.altitude = 0.7;  // it stands
+    w.roll_torque = 0.5;
+    CHECK(w.seconds_until_weak() > 0.99);
+    Watched flies;
+    flies.in.estimate.altitude = 0.7;
+    flies.body.parts[0] = 0.5;
+    REQUIRE(flies.seconds_until_weak() < 0.1);
+    flies.in.directive.state = FlightState::landing;
+    flies.run(20);
+    CHECK(flies.out.motors.effectiveness[0] == doctest::Approx(0.5).epsilon(0.02).scale(0));
+    flies.body.parts[0] = 0.4;
+    flies.run(20);
+    CHECK(flies.out.motors.effectiveness[0] == doctest::Approx(0.4).epsilon(0.02).scale(0));
   }
 
   TEST_CASE("when the operator has acknowledged the landing each motor is tried anew") {
