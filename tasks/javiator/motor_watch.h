@@ -16,6 +16,7 @@ namespace jarol::tasks {
 /// sampled the answers show, however long they took. Signals that nobody has answered were perhaps heard, perhaps not:
 /// both are followed, and what lies between is doubted. A motor that lacks more than `allowance` for two or three
 /// periods is weak, until it stands and the operator has acknowledged that; how weak is followed from then on.
+/// A landing whose altitude nothing confirms finds none: it may stand already, and the ground turns it.
 struct MotorWatch {
   static constexpr std::string_view summary = "finds a motor that gives less thrust than is demanded";
   struct Param {
